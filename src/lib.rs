@@ -1,0 +1,4 @@
+//! patchlight shows what light does with a curved surface.
+pub mod geometry;
+pub mod math;
+pub mod scene;

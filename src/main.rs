@@ -1,0 +1,2 @@
+//! The `patchlight` program.
+fn main() {}

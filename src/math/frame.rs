@@ -1,0 +1,52 @@
+use glam::DVec3;
+
+/// An orthonormal basis around a normal: local x, y, z are `tangent`, `bitangent`, `normal`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Local x, unit length.
+    pub tangent: DVec3,
+    /// Local y, unit length.
+    pub bitangent: DVec3,
+    /// Local z, unit length.
+    pub normal: DVec3,
+}
+
+impl Frame {
+    /// Some frame with this unit normal: without branches on its direction, hence without poles \[Duff17\].
+    pub fn from_normal(normal: DVec3) -> Self {
+        let sign = 1f64.copysign(normal.z);
+        let a = -1.0 / (sign + normal.z);
+        let b = normal.x * normal.y * a;
+        Self {
+            tangent: DVec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
+            bitangent: DVec3::new(b, sign + normal.y * normal.y * a, -normal.y),
+            normal,
+        }
+    }
+
+    /// The frame with this unit normal whose tangent lies along `dpdu`, made orthogonal to the normal, and whose
+    /// bitangent lies on the side of `dpdv`. Falls back to [`Frame::from_normal`] where `dpdu` has no direction
+    /// across the normal.
+    pub fn from_derivatives(normal: DVec3, dpdu: DVec3, dpdv: DVec3) -> Self {
+        let across = dpdu - normal * normal.dot(dpdu);
+        if across.length_squared() <= 1e-20 * dpdu.length_squared() {
+            return Self::from_normal(normal);
+        }
+        let Some(tangent) = across.try_normalize() else {
+            return Self::from_normal(normal);
+        };
+        let bitangent = normal.cross(tangent);
+        let bitangent = if bitangent.dot(dpdv) < 0.0 { -bitangent } else { bitangent };
+        Self { tangent, bitangent, normal }
+    }
+
+    /// World coordinates of a local vector.
+    pub fn world_from_local(&self, v: DVec3) -> DVec3 {
+        v.x * self.tangent + v.y * self.bitangent + v.z * self.normal
+    }
+
+    /// Local coordinates of a world vector.
+    pub fn local_from_world(&self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.tangent), v.dot(self.bitangent), v.dot(self.normal))
+    }
+}

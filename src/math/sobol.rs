@@ -1,0 +1,213 @@
+//! Owen-scrambled Sobol points as pure functions of (seed, stream, index, dimension) \[Burley20\].
+//!
+//! Points come in sets of four dimensions. Within a set any aligned power-of-two block of indices is a digital net;
+//! sets are paired at random by shuffling the index. So the four numbers that a path uses first should be the four
+//! that matter most.
+
+use glam::DVec2;
+
+/// What a stream of random numbers is for; streams are independent of each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stream {
+    /// Paths from the camera; one sequence a pixel.
+    Camera = 1,
+    /// Photons aimed at specular surfaces.
+    CausticPhoton = 2,
+    /// Photons that carry interreflected light.
+    GlobalPhoton = 3,
+    /// Rays that look for what a light can reach.
+    Probe = 4,
+    /// Draft frames, which never mix with the others.
+    Draft = 5,
+    /// Everything that tests draw.
+    Test = 6,
+}
+
+/// The point with a given index of one stream; hands out its coordinates in order.
+#[derive(Clone, Debug)]
+pub struct Sampler {
+    index: u32,
+    seed: u32,
+    set: u32,
+    used: usize,
+    point: [u32; 4],
+}
+
+impl Sampler {
+    /// The point number `index` of the sequence of `(seed, stream, sequence)`.
+    ///
+    /// Indices beyond `2^32` start a new, independently scrambled sequence: nothing repeats.
+    pub fn new(seed: u64, stream: Stream, sequence: u64, index: u64) -> Self {
+        let key = mix64(seed ^ mix64(sequence ^ mix64((index >> 32) ^ ((stream as u64) << 56))));
+        let mut sampler =
+            Self { index: index as u32, seed: key as u32 ^ (key >> 32) as u32, set: 0, used: 0, point: [0; 4] };
+        sampler.load_set();
+        sampler
+    }
+
+    /// The next coordinate, in `[0, 1)`.
+    pub fn next_1d(&mut self) -> f64 {
+        if self.used == 4 {
+            self.next_set();
+        }
+        let x = self.point[self.used];
+        self.used += 1;
+        unit_from_bits(x)
+    }
+
+    /// The next two coordinates of one set: well distributed together.
+    pub fn next_2d(&mut self) -> DVec2 {
+        if self.used > 2 {
+            self.next_set();
+        }
+        DVec2::new(self.next_1d(), self.next_1d())
+    }
+
+    /// Leaves the rest of this set of four unused.
+    pub fn next_set(&mut self) {
+        self.set += 1;
+        self.used = 0;
+        self.load_set();
+    }
+
+    fn load_set(&mut self) {
+        let set_seed = hash32(self.seed ^ hash32(self.set));
+        let shuffled = owen_scramble(self.index, set_seed);
+        for (dimension, x) in self.point.iter_mut().enumerate() {
+            let key = hash32(set_seed ^ (dimension as u32 + 1).wrapping_mul(0x9e37_79b9));
+            *x = owen_scramble(sobol_bits(shuffled, dimension), key);
+        }
+    }
+}
+
+/// A well mixed 64-bit hash (the finaliser of SplitMix64).
+pub fn mix64(x: u64) -> u64 {
+    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+fn hash32(x: u32) -> u32 {
+    let x = (x ^ (x >> 16)).wrapping_mul(0x21f0_aaad);
+    let x = (x ^ (x >> 15)).wrapping_mul(0x735a_2d97);
+    x ^ (x >> 15)
+}
+
+/// The middle of the interval of length `2^-32` that the bits name: never 0, never 1.
+fn unit_from_bits(bits: u32) -> f64 {
+    (f64::from(bits) + 0.5) * 2f64.powi(-32)
+}
+
+/// Owen's nested uniform scramble by a hash in which low bits drive high bits only \[LaineKarras11\].
+fn owen_scramble(x: u32, seed: u32) -> u32 {
+    let mut x = x.reverse_bits();
+    x ^= x.wrapping_mul(0x3d20_adea);
+    x = x.wrapping_add(seed);
+    x = x.wrapping_mul((seed >> 16) | 1);
+    x ^= x.wrapping_mul(0x0552_6c56);
+    x ^= x.wrapping_mul(0x53a2_2864);
+    x.reverse_bits()
+}
+
+/// Coordinate `dimension` (0 to 3) of Sobol point `index`, as a binary fraction of 32 bits.
+fn sobol_bits(index: u32, dimension: usize) -> u32 {
+    let table = &SOBOL_BYTES[dimension];
+    let [a, b, c, d] = index.to_le_bytes();
+    table[0][a as usize] ^ table[1][b as usize] ^ table[2][c as usize] ^ table[3][d as usize]
+}
+
+/// For each dimension and each byte of the index, the XOR of the direction numbers of its bits.
+static SOBOL_BYTES: [[[u32; 256]; 4]; 4] = sobol_bytes();
+
+const fn sobol_bytes() -> [[[u32; 256]; 4]; 4] {
+    let directions = [
+        direction_numbers(0, 0, [1, 0, 0]),
+        direction_numbers(1, 0, [1, 0, 0]),
+        direction_numbers(2, 1, [1, 3, 0]),
+        direction_numbers(3, 1, [1, 3, 1]),
+    ];
+    let mut tables = [[[0u32; 256]; 4]; 4];
+    let mut k = 0;
+    while k < 4 * 4 * 256 {
+        let (dimension, byte, value) = (k / 1024, (k / 256) % 4, k % 256);
+        let mut bit = 0;
+        while bit < 8 {
+            if value >> bit & 1 == 1 {
+                tables[dimension][byte][value] ^= directions[dimension][8 * byte + bit];
+            }
+            bit += 1;
+        }
+        k += 1;
+    }
+    tables
+}
+
+/// Direction numbers from a primitive polynomial of this degree and its first odd integers \[JoeKuo08\].
+const fn direction_numbers(degree: usize, coefficients: u32, first: [u32; 3]) -> [u32; 32] {
+    let mut v = [0u32; 32];
+    let mut i = 0;
+    while i < 32 {
+        v[i] = if degree == 0 {
+            1 << (31 - i)
+        } else if i < degree {
+            first[i] << (31 - i)
+        } else {
+            let mut x = v[i - degree] ^ (v[i - degree] >> degree);
+            let mut k = 1;
+            while k < degree {
+                if coefficients >> (degree - 1 - k) & 1 == 1 {
+                    x ^= v[i - k];
+                }
+                k += 1;
+            }
+            x
+        };
+        i += 1;
+    }
+    v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every aligned block of 256 points hits each of the 16 x 16 cells once, in any two dimensions of set 0's pairs
+    /// that form a (0, 2)-sequence, and each of 256 intervals once in every single dimension.
+    #[test]
+    fn aligned_blocks_are_nets() {
+        for block in [0u64, 5, 1 << 20] {
+            let mut cells = [false; 256];
+            let mut intervals = [[false; 256]; 4];
+            for k in 0..256 {
+                let mut sampler = Sampler::new(7, Stream::Test, 3, block * 256 + k);
+                let x: Vec<f64> = (0..4).map(|_| sampler.next_1d()).collect();
+                for (hit, x) in intervals.iter_mut().zip(&x) {
+                    assert!(!std::mem::replace(&mut hit[(x * 256.0) as usize], true), "an interval is hit once");
+                }
+                let cell = (x[0] * 16.0) as usize * 16 + (x[1] * 16.0) as usize;
+                assert!(!std::mem::replace(&mut cells[cell], true), "a cell is hit once");
+            }
+        }
+    }
+
+    #[test]
+    fn sequences_and_sets_are_independent() {
+        let pairs = 4096;
+        let mut covariance = [0.0; 3];
+        for k in 0..pairs {
+            let mut a = Sampler::new(1, Stream::Test, 0, k);
+            let mut b = Sampler::new(1, Stream::Test, 1, k);
+            let mut c = Sampler::new(1, Stream::Test, 0, k + (1 << 32));
+            let first = a.next_1d() - 0.5;
+            covariance[0] += first * (b.next_1d() - 0.5);
+            covariance[1] += first * (c.next_1d() - 0.5);
+            a.next_set();
+            covariance[2] += first * (a.next_1d() - 0.5);
+        }
+        for c in covariance {
+            // Independent uniforms have a covariance of standard error 1 / (12 sqrt(n)) = 1.3e-3; five of these.
+            assert!((c / pairs as f64).abs() < 6.5e-3, "covariance {covariance:?}");
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Warps from the unit square to directions and discs, each with its density.
+
+use glam::{DVec2, DVec3};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+/// A point in the unit disc, uniform by area, that keeps squares together \[ShirleyChiu97\].
+pub fn concentric_disc(u: DVec2) -> DVec2 {
+    let offset = 2.0 * u - 1.0;
+    if offset == DVec2::ZERO {
+        return DVec2::ZERO;
+    }
+    let (radius, angle) = if offset.x.abs() > offset.y.abs() {
+        (offset.x, FRAC_PI_4 * (offset.y / offset.x))
+    } else {
+        (offset.y, FRAC_PI_2 - FRAC_PI_4 * (offset.x / offset.y))
+    };
+    radius * DVec2::from_angle(angle)
+}
+
+/// A direction about +z with density `cos / pi`.
+pub fn cosine_hemisphere(u: DVec2) -> DVec3 {
+    let disc = concentric_disc(u);
+    disc.extend((1.0 - disc.length_squared()).max(0.0).sqrt())
+}
+
+/// A direction with density `1 / (4 pi)`.
+pub fn uniform_sphere(u: DVec2) -> DVec3 {
+    let z = 1.0 - 2.0 * u.x;
+    ((1.0 - z * z).max(0.0).sqrt() * DVec2::from_angle(TAU * u.y)).extend(z)
+}
+
+/// A direction about +z with density `(exponent + 1) / (2 pi) * cos^exponent`, the lobe of the Phong model.
+pub fn cosine_power(u: DVec2, exponent: f64) -> DVec3 {
+    let z = (1.0 - u.x).powf(1.0 / (exponent + 1.0));
+    ((1.0 - z * z).max(0.0).sqrt() * DVec2::from_angle(TAU * u.y)).extend(z)
+}
+
+/// Density of [`cosine_power`] at an angle with this cosine, per steradian.
+pub fn pdf_cosine_power(cos: f64, exponent: f64) -> f64 {
+    if cos > 0.0 { (exponent + 1.0) / TAU * cos.powf(exponent) } else { 0.0 }
+}
+
+/// A direction about +z, uniform in the cone whose half angle has `1 - cos = one_minus_cos`.
+///
+/// Taking `1 - cos` rather than the cosine keeps thin cones exact.
+pub fn uniform_cone(u: DVec2, one_minus_cos: f64) -> DVec3 {
+    let rise = u.x * one_minus_cos;
+    let sin = (rise * (2.0 - rise)).max(0.0).sqrt();
+    (sin * DVec2::from_angle(TAU * u.y)).extend(1.0 - rise)
+}
+
+/// Density of [`uniform_cone`], per steradian.
+pub fn pdf_uniform_cone(one_minus_cos: f64) -> f64 {
+    1.0 / (2.0 * PI * one_minus_cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid() -> impl Iterator<Item = DVec2> {
+        (0..128 * 128).map(|k| DVec2::new(f64::from(k % 128) + 0.5, f64::from(k / 128) + 0.5) / 128.0)
+    }
+
+    #[test]
+    fn means_match_the_densities() {
+        let mean = |f: &dyn Fn(DVec2) -> f64| grid().map(f).sum::<f64>() / (128.0 * 128.0);
+        // E[cos] of each density; the midpoint rule on a 128 x 128 grid is good to a few 1e-5.
+        assert!((mean(&|u| cosine_hemisphere(u).z) - 2.0 / 3.0).abs() < 1e-4, "cosine");
+        assert!(mean(&|u| uniform_sphere(u).z).abs() < 1e-9, "sphere");
+        assert!((mean(&|u| cosine_power(u, 10.0).z) - 11.0 / 12.0).abs() < 1e-4, "power");
+        assert!((mean(&|u| uniform_cone(u, 0.25).z) - 0.875).abs() < 1e-9, "cone");
+        for u in grid() {
+            for d in [cosine_hemisphere(u), uniform_sphere(u), cosine_power(u, 3.0), uniform_cone(u, 1e-12)] {
+                assert!((d.length() - 1.0).abs() < 1e-12, "unit length at {u}");
+            }
+        }
+    }
+}
