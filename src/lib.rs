@@ -1,4 +1,5 @@
 //! patchlight shows what light does with a curved surface.
+pub mod file;
 pub mod geometry;
 pub mod math;
 pub mod scene;

@@ -1,0 +1,76 @@
+//! Files are written whole or not at all.
+
+use std::{
+    fs::{self, Permissions},
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+use tempfile::Builder;
+
+/// Makes `path` hold exactly `bytes`: writes them to a temporary file beside it and renames that. Where this fails,
+/// whatever was at `path` is as it was. What is no regular file (a pipe, a device) is written directly.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // A symbolic link stays one: its target is what is replaced.
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let before = fs::metadata(&target).ok();
+    if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
+        return fs::write(&target, bytes);
+    }
+    let mut temporary =
+        Builder::new().prefix(".patchlight-").permissions(new_file_permissions()).tempfile_in(folder(&target))?;
+    temporary.write_all(bytes)?;
+    if let Some(before) = before.filter(fs::Metadata::is_file) {
+        temporary.as_file().set_permissions(before.permissions())?;
+    }
+    temporary.as_file().sync_all()?;
+    temporary.persist(&target).map_err(|e| e.error)?;
+    Ok(())
+}
+
+/// The folder that holds `path`.
+pub fn folder(path: &Path) -> PathBuf {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_owned)
+}
+
+/// What a program asks for when it creates a file; the system takes the user's mask off.
+#[cfg(unix)]
+fn new_file_permissions() -> Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    Permissions::from_mode(0o666)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn replaces_or_leaves_alone() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.txt");
+        write_whole(&path, b"one").unwrap();
+        write_whole(&path, b"two").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        let folder_in_the_way = dir.path().join("folder");
+        fs::create_dir(&folder_in_the_way).unwrap();
+        write_whole(&folder_in_the_way, b"three").unwrap_err();
+        write_whole(&dir.path().join("no such folder/b.txt"), b"four").unwrap_err();
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 2, "nothing is left behind");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn keeps_links_permissions_and_devices() {
+        use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+        let dir = tempfile::tempdir().unwrap();
+        let (path, link) = (dir.path().join("a"), dir.path().join("link"));
+        fs::write(&path, b"old").unwrap();
+        fs::set_permissions(&path, Permissions::from_mode(0o640)).unwrap();
+        symlink(&path, &link).unwrap();
+        write_whole(&link, b"new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o640);
+        write_whole(Path::new("/dev/null"), b"gone").unwrap();
+        assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+    }
+}

@@ -1,0 +1,131 @@
+use super::{
+    LocatedProblem, Location, Problem, Scene, SceneError, Shape, built_in::embedded, built_in_scenes, load,
+    location::relative_to, problem::suggestion, save,
+};
+use crate::file::{folder, write_whole};
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+/// A scene and where it is from.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct SceneFile {
+    /// What is to be seen.
+    pub scene: Scene,
+    /// What the paths in it are relative to.
+    pub location: Location,
+}
+
+impl SceneFile {
+    /// Reads a scene file and checks all of it, and that the files it names are there.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
+        let bytes = fs::read(path).map_err(|source| SceneError::Read { file: path.to_owned(), source })?;
+        let location = Location::Disk(path.to_owned());
+        let text = String::from_utf8(bytes).map_err(|e| no_text(&e, &location))?;
+        Self::parse(&text, location)
+    }
+
+    /// The built-in scene of this name.
+    pub fn built_in(name: &str) -> Result<Self, SceneError> {
+        let names = built_in_scenes().iter().map(|scene| scene.name);
+        let found = names.clone().find(|known| *known == name);
+        let bytes = found.and_then(|known| embedded(&format!("scenes/{known}.toml")));
+        let Some(bytes) = bytes else {
+            return Err(SceneError::NoSuchExample { name: name.to_owned(), suggestion: suggestion(name, names) });
+        };
+        let location = Location::BuiltIn(name.to_owned());
+        let text = String::from_utf8(bytes.to_vec()).map_err(|e| no_text(&e, &location))?;
+        Self::parse(&text, location)
+    }
+
+    /// The scene that a text describes, as if it stood at `location`.
+    pub fn parse(text: &str, location: Location) -> Result<Self, SceneError> {
+        match load::parse(text, &location) {
+            Ok(scene) => Ok(Self { scene, location }),
+            Err(problems) => Err(SceneError::Invalid { file: location.label(), problems }),
+        }
+    }
+
+    /// Writes the scene to `path`, whole or not at all, and is from then on the scene of that file.
+    ///
+    /// Paths in the scene are written so that they lead to the same files from the new place. Files that only the
+    /// program carries are written beside the scene. Patches that no longer equal their `.bpt` file are written into
+    /// the scene.
+    pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
+        let failed = |source| SceneError::Write { file: path.to_owned(), source };
+        let mut saved = self.scene.clone();
+        let mut carried = Vec::new();
+        for texture in &mut saved.textures {
+            texture.file = self.moved(&texture.file, path, &mut carried).map_err(failed)?;
+        }
+        for object in &mut saved.objects {
+            if let Shape::Bezier(bezier) = &mut object.shape
+                && let Some(file) = bezier.file.take()
+                && self.location.read_patches(&file).is_ok_and(|patches| patches == *bezier.patches)
+            {
+                bezier.file = Some(self.moved(&file, path, &mut carried).map_err(failed)?);
+            }
+        }
+        for (file, bytes) in carried {
+            write_whole(&file, bytes).map_err(|source| SceneError::Write { file, source })?;
+        }
+        write_whole(path, save::text(&saved).as_bytes()).map_err(failed)?;
+        *self = Self { scene: saved, location: Location::Disk(path.to_owned()) };
+        Ok(())
+    }
+
+    /// The path that leads from the scene at `path` to the file that `relative` names now. Adds what must be written
+    /// to make it so.
+    fn moved(&self, relative: &str, path: &Path, carried: &mut Vec<(PathBuf, &'static [u8])>) -> io::Result<String> {
+        if relative.is_empty() || Path::new(relative).is_absolute() {
+            return Ok(relative.to_owned());
+        }
+        let folder = folder(path);
+        if let Some(file) = self.location.path_on_disk(relative) {
+            let stays = matches!(&self.location, Location::Disk(from) if crate::file::folder(from) == folder);
+            return if stays { Ok(relative.to_owned()) } else { relative_to(&folder, &file) };
+        }
+        match self.location.read(relative)? {
+            std::borrow::Cow::Borrowed(bytes) => beside(&folder, relative, bytes, carried),
+            std::borrow::Cow::Owned(_) => Ok(relative.to_owned()),
+        }
+    }
+}
+
+/// A free name in `folder` for a carried file; the name of one that holds the same bytes serves as well.
+fn beside(
+    folder: &Path,
+    relative: &str,
+    bytes: &'static [u8],
+    carried: &mut Vec<(PathBuf, &'static [u8])>,
+) -> io::Result<String> {
+    let name = relative.rsplit('/').next().unwrap_or(relative);
+    let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
+    for number in 1.. {
+        let candidate = if number == 1 { name.to_owned() } else { format!("{stem}-{number}.{extension}") };
+        let file = folder.join(&candidate);
+        let planned = carried.iter().find(|(other, _)| *other == file).map(|(_, bytes)| *bytes);
+        let there = planned.map(|b| Ok(b.to_vec())).unwrap_or_else(|| fs::read(&file));
+        match there {
+            Ok(held) if held == bytes => return Ok(candidate),
+            Ok(_) => {}
+            Err(e) if e.kind() == io::ErrorKind::NotFound => {
+                carried.push((file, bytes));
+                return Ok(candidate);
+            }
+            Err(e) => return Err(e),
+        }
+    }
+    Err(io::Error::other("no free name"))
+}
+
+fn no_text(error: &std::string::FromUtf8Error, location: &Location) -> SceneError {
+    let valid = error.utf8_error().valid_up_to();
+    let text = String::from_utf8_lossy(&error.as_bytes()[..valid]);
+    let problem = Problem { path: String::new(), message: "the file is no UTF-8 text from here on".to_owned() };
+    SceneError::Invalid { file: location.label(), problems: vec![LocatedProblem::at(&text, text.len(), problem)] }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,82 @@
+use super::built_in::embedded;
+use crate::{file::folder, geometry::bezier::ControlNet};
+use std::{
+    borrow::Cow,
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+/// Where a scene is from: the place that the paths in it are relative to.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub enum Location {
+    /// This scene file.
+    Disk(PathBuf),
+    /// The built-in scene of this name.
+    BuiltIn(String),
+    /// Nowhere yet: paths are relative to the working directory.
+    #[default]
+    Unsaved,
+}
+
+impl Location {
+    /// The bytes of a file that the scene names, an image or a `.bpt` file.
+    pub fn read(&self, relative: &str) -> io::Result<Cow<'static, [u8]>> {
+        match self.path_on_disk(relative) {
+            Some(path) => fs::read(path).map(Cow::Owned),
+            None => embedded(&self.embedded_path(relative))
+                .map(Cow::Borrowed)
+                .ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "the program carries no such file")),
+        }
+    }
+
+    /// The patches in a `.bpt` file that the scene names, or a message that says why there are none.
+    pub fn read_patches(&self, relative: &str) -> Result<Vec<ControlNet>, String> {
+        let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
+        let text = str::from_utf8(&bytes).map_err(|e| format!("\"{relative}\" is no text: {e}"))?;
+        Err(format!("\"{relative}\": {} bytes", text.len()))
+    }
+
+    /// The file's path, unless the program carries the file with it.
+    pub(super) fn path_on_disk(&self, relative: &str) -> Option<PathBuf> {
+        match self {
+            Self::Disk(scene) => Some(folder(scene).join(relative)),
+            Self::Unsaved => Some(PathBuf::from(relative)),
+            Self::BuiltIn(_) => Some(PathBuf::from(relative)).filter(|path| path.is_absolute()),
+        }
+    }
+
+    /// The path in the project of a file that a built-in scene names: all of them lie in `scenes/`.
+    fn embedded_path(&self, relative: &str) -> String {
+        let mut parts = vec!["scenes"];
+        for part in relative.split('/') {
+            match part {
+                "." | "" => {}
+                ".." => drop(parts.pop()),
+                name => parts.push(name),
+            }
+        }
+        parts.join("/")
+    }
+
+    /// For messages and titles: the path as given, or the example's name.
+    pub fn label(&self) -> String {
+        match self {
+            Self::Disk(path) => path.display().to_string(),
+            Self::BuiltIn(name) => format!("built-in scene {name}"),
+            Self::Unsaved => "unsaved scene".to_owned(),
+        }
+    }
+}
+
+/// `path` as seen from `folder`; absolute where there is no such way. Uses `/` on every system.
+pub(super) fn relative_to(folder: &Path, path: &Path) -> io::Result<String> {
+    let path = std::path::absolute(path)?;
+    // The folder may be reached through links, which make a way up with `..` lead elsewhere.
+    let (path, folder) = match (path.canonicalize(), folder.canonicalize()) {
+        (Ok(path), Ok(folder)) => (path, folder),
+        _ => (path, std::path::absolute(folder)?),
+    };
+    let relative = pathdiff::diff_paths(&path, folder).unwrap_or(path);
+    let text = relative.to_str().ok_or_else(|| io::Error::other("a path that is no Unicode cannot be saved"))?;
+    Ok(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
+}

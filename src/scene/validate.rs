@@ -1,0 +1,99 @@
+//! What must hold of a scene, whoever made it: a file or a window.
+
+mod checks;
+mod material;
+mod shape;
+
+use super::{Camera, Film, Problem, Render, Scene, Texture};
+use checks::{Checks, MIN_LENGTH, parallel};
+use std::collections::HashSet;
+
+/// Everything that is wrong with a scene: numbers out of range, names that name nothing or two things, surfaces that
+/// reflect more than they receive. Empty for a scene that can be rendered.
+pub fn validate(scene: &Scene) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    let mut checks = Checks::new(&mut problems);
+    camera(&scene.camera, &mut checks.at("camera"));
+    film(&scene.film, &mut checks.at("film"));
+    render(&scene.render, &mut checks.at("render"));
+    let names = Names::of(scene);
+    each("texture", &scene.textures, |t| &t.name, &mut checks, texture);
+    each("material", &scene.materials, |m| &m.name, &mut checks, |m, c| material::material(m, &names, c));
+    each("light", &scene.lights, |l| &l.name, &mut checks, shape::light);
+    each("object", &scene.objects, |o| &o.name, &mut checks, |o, c| shape::object(o, &names, c));
+    problems
+}
+
+/// What can be referred to.
+struct Names<'a> {
+    textures: Vec<&'a str>,
+    materials: Vec<&'a str>,
+}
+
+impl<'a> Names<'a> {
+    fn of(scene: &'a Scene) -> Self {
+        Self {
+            textures: scene.textures.iter().map(|t| t.name.as_str()).collect(),
+            materials: scene.materials.iter().map(|m| m.name.as_str()).collect(),
+        }
+    }
+}
+
+/// Checks every item of a list, and that its name is there and its own.
+fn each<'a, T>(
+    list: &str,
+    items: &'a [T],
+    name: impl Fn(&'a T) -> &'a String,
+    checks: &mut Checks<'_>,
+    check: impl Fn(&'a T, &mut Checks<'_>),
+) {
+    let mut seen = HashSet::new();
+    for (index, item) in items.iter().enumerate() {
+        let name = name(item);
+        let checks = &mut checks.at(&format!("{list}[{index}]"));
+        checks
+            .require(!name.is_empty(), "name", || "found an empty name, expected one that others can refer to".into());
+        checks.require(name.is_empty() || seen.insert(name), "name", || {
+            format!("found \"{name}\" for the second time, expected a name that no other {list} has")
+        });
+        check(item, checks);
+    }
+}
+
+fn camera(camera: &Camera, checks: &mut Checks<'_>) {
+    checks.point("position", camera.position);
+    checks.point("target", camera.target);
+    checks.point("up", camera.up);
+    let forward = camera.target - camera.position;
+    checks.require(forward.length() >= MIN_LENGTH, "target", || {
+        "found the camera's position, expected another point".into()
+    });
+    checks.require(forward.length() < MIN_LENGTH || !parallel(forward, camera.up), "up", || {
+        format!("found {}, expected a direction across that from position to target", camera.up)
+    });
+    let fov = camera.fov_y;
+    checks
+        .require(fov > 0.0 && fov < 180.0, "fov_y", || format!("found {fov}, expected degrees above 0 and below 180"));
+}
+
+fn film(film: &Film, checks: &mut Checks<'_>) {
+    for (key, pixels) in [("width", film.width), ("height", film.height)] {
+        checks.require((1..=16384).contains(&pixels), key, || format!("found {pixels}, expected 1 to 16384 pixels"));
+    }
+    checks.within("exposure", film.exposure, -64.0, 64.0);
+}
+
+fn render(render: &Render, checks: &mut Checks<'_>) {
+    let bounces = render.max_bounces;
+    checks.require((1..=1024).contains(&bounces), "max_bounces", || format!("found {bounces}, expected 1 to 1024"));
+    checks.radiance("background", render.background);
+}
+
+fn texture(texture: &Texture, checks: &mut Checks<'_>) {
+    checks.require(!texture.file.is_empty(), "file", || {
+        "found an empty path, expected that of a PNG or JPEG file".into()
+    });
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,93 @@
+use crate::{
+    math::Rgb,
+    scene::{Problem, problem::suggestion},
+};
+use glam::DVec3;
+
+/// The largest coordinate. Cubes of it, and f32 squares of transformed ones, are far from overflow.
+pub(super) const MAX_LENGTH: f64 = 1e9;
+
+/// The smallest length of what must have one. Its square is far from underflow even in f32.
+pub(super) const MIN_LENGTH: f64 = 1e-9;
+
+/// The largest radiance, which leaves room for sums and products in f32.
+const MAX_RADIANCE: f32 = 1e12;
+
+/// Collects problems with what lies at one path.
+pub(super) struct Checks<'a> {
+    path: String,
+    problems: &'a mut Vec<Problem>,
+}
+
+impl<'a> Checks<'a> {
+    /// Checks of the scene as a whole.
+    pub(super) fn new(problems: &'a mut Vec<Problem>) -> Self {
+        Self { path: String::new(), problems }
+    }
+
+    /// Checks of what `key` holds.
+    pub(super) fn at(&mut self, key: &str) -> Checks<'_> {
+        Checks { path: self.path_of(key), problems: self.problems }
+    }
+
+    fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// Reports a problem with `key` unless `holds`.
+    pub(super) fn require(&mut self, holds: bool, key: &str, message: impl FnOnce() -> String) {
+        if !holds {
+            self.problems.push(Problem { path: self.path_of(key), message: message() });
+        }
+    }
+
+    /// A number from `min` to `max`; NaN is none.
+    pub(super) fn within(&mut self, key: &str, x: f64, min: f64, max: f64) {
+        self.require((min..=max).contains(&x), key, || {
+            format!("found {x:?}, expected a number from {min:?} to {max:?}")
+        });
+    }
+
+    /// A length above 0.
+    pub(super) fn length(&mut self, key: &str, x: f64) {
+        self.within(key, x, MIN_LENGTH, MAX_LENGTH);
+    }
+
+    /// Coordinates that can be computed with.
+    pub(super) fn point(&mut self, key: &str, p: DVec3) {
+        self.require(is_point(p), key, || {
+            format!("found {p}, expected numbers from {:?} to {MAX_LENGTH:?}", -MAX_LENGTH)
+        });
+    }
+
+    /// Coordinates that have a direction.
+    pub(super) fn direction(&mut self, key: &str, d: DVec3) {
+        self.point(key, d);
+        self.require(!is_point(d) || d.length() >= MIN_LENGTH, key, || {
+            format!("found {d}, expected a direction, of length {MIN_LENGTH:?} at least")
+        });
+    }
+
+    /// A strength of light for each channel.
+    pub(super) fn radiance(&mut self, key: &str, c: Rgb) {
+        let fits = c.to_array().into_iter().all(|x| (0.0..=MAX_RADIANCE).contains(&x));
+        self.require(fits, key, || format!("found {c}, expected 0 to {MAX_RADIANCE:?} in each channel"));
+    }
+
+    /// The name of something that there is.
+    pub(super) fn name(&mut self, key: &str, name: &str, kind: &str, known: &[&str]) {
+        self.require(known.contains(&name), key, || {
+            format!("found \"{name}\", expected the name of a {kind}{}", suggestion(name, known.iter().copied()))
+        });
+    }
+}
+
+/// Whether all coordinates are finite and of a size that can be computed with.
+pub(super) fn is_point(p: DVec3) -> bool {
+    p.to_array().into_iter().all(|x| x.abs() <= MAX_LENGTH)
+}
+
+/// Whether two directions span no plane that numbers could tell: less than about 1e-9 radians apart.
+pub(super) fn parallel(a: DVec3, b: DVec3) -> bool {
+    a.cross(b).length() <= 1e-9 * a.length() * b.length()
+}

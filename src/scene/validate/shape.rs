@@ -1,0 +1,83 @@
+use super::{
+    Names,
+    checks::{Checks, MIN_LENGTH, is_point, parallel},
+};
+use crate::scene::{Bezier, Emitter, Light, Object, Shape, Transform};
+use glam::DVec3;
+
+/// A light.
+pub(super) fn light(light: &Light, checks: &mut Checks<'_>) {
+    match light.emitter {
+        Emitter::Point { position, intensity } => {
+            checks.point("position", position);
+            checks.radiance("intensity", intensity);
+        }
+        Emitter::Sphere { center, radius, radiance } => {
+            checks.point("center", center);
+            checks.length("radius", radius);
+            checks.radiance("radiance", radiance);
+        }
+        Emitter::Quad { corner, edge_u, edge_v, radiance } => {
+            parallelogram(corner, edge_u, edge_v, checks);
+            checks.radiance("radiance", radiance);
+        }
+    }
+}
+
+/// An object.
+pub(super) fn object(object: &Object, names: &Names<'_>, checks: &mut Checks<'_>) {
+    checks.name("material", &object.material, "material", &names.materials);
+    match &object.shape {
+        Shape::Quad { corner, edge_u, edge_v } => parallelogram(*corner, *edge_u, *edge_v, checks),
+        Shape::Sphere { center, radius } => {
+            checks.point("center", *center);
+            checks.length("radius", *radius);
+        }
+        Shape::Plane { point, normal, u_axis } => plane(*point, *normal, *u_axis, checks),
+        Shape::Bezier(b) => bezier(b, checks),
+    }
+}
+
+fn parallelogram(corner: DVec3, edge_u: DVec3, edge_v: DVec3, checks: &mut Checks<'_>) {
+    checks.point("corner", corner);
+    checks.direction("edge_u", edge_u);
+    checks.direction("edge_v", edge_v);
+    let flat = parallel(edge_u, edge_v) && edge_u.length() >= MIN_LENGTH && edge_v.length() >= MIN_LENGTH;
+    checks.require(!flat, "edge_v", || {
+        format!("found {edge_v}, expected another direction than that of edge_u {edge_u}")
+    });
+}
+
+fn plane(point: DVec3, normal: DVec3, u_axis: Option<DVec3>, checks: &mut Checks<'_>) {
+    checks.point("point", point);
+    checks.direction("normal", normal);
+    if let Some(u_axis) = u_axis {
+        checks.direction("u_axis", u_axis);
+        checks.require(!parallel(normal, u_axis) || u_axis.length() < MIN_LENGTH, "u_axis", || {
+            format!("found {u_axis}, expected a direction across the normal {normal}")
+        });
+    }
+}
+
+fn bezier(bezier: &Bezier, checks: &mut Checks<'_>) {
+    transform(&bezier.transform, &mut checks.at("transform"));
+    checks.require(bezier.file.as_deref() != Some(""), "file", || "found an empty path".into());
+    checks.require(!bezier.patches.is_empty(), "patches", || "found no patch, expected at least one".into());
+    for (k, net) in bezier.patches.iter().enumerate() {
+        for (i, row) in net.points.iter().enumerate() {
+            for (j, point) in row.iter().enumerate().filter(|(_, p)| !is_point(**p)) {
+                checks.point(&format!("patches[{k}][{i}][{j}]"), *point);
+            }
+        }
+    }
+}
+
+fn transform(transform: &Transform, checks: &mut Checks<'_>) {
+    checks.point("translate", transform.translate);
+    checks.point("rotate", transform.rotate);
+    for (index, factor) in transform.scale.to_array().into_iter().enumerate() {
+        checks.require((1e-6..=1e6).contains(&factor.abs()), &format!("scale[{index}]"), || {
+            format!("found {factor}, expected a factor from 1e-6 to 1e6, or below 0 to mirror")
+        });
+    }
+}

@@ -1,0 +1,78 @@
+use super::*;
+use crate::{
+    math::Rgb,
+    scene::{Color, Emitter, Light, Material, MaterialModel, Object, Shape},
+};
+use glam::DVec3;
+
+fn scene() -> Scene {
+    let material = |name: &str| Material {
+        name: name.to_owned(),
+        model: MaterialModel::Diffuse { albedo: Color::Constant(Rgb::splat(0.5)) },
+        relief: None,
+    };
+    let shape = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
+    Scene {
+        materials: vec![material("white"), material("black")],
+        lights: vec![Light {
+            name: "lamp".to_owned(),
+            emitter: Emitter::Point { position: DVec3::ZERO, intensity: Rgb::ONE },
+        }],
+        objects: vec![Object { name: "ball".to_owned(), material: "white".to_owned(), shape }],
+        ..Scene::default()
+    }
+}
+
+/// The path of the one problem that an edit makes.
+fn problem_after(edit: impl Fn(&mut Scene)) -> String {
+    let mut scene = scene();
+    edit(&mut scene);
+    let problems = validate(&scene);
+    assert_eq!(problems.len(), 1, "{problems:?}");
+    problems[0].path.clone()
+}
+
+#[test]
+fn a_good_scene_has_no_problem() {
+    assert_eq!(validate(&scene()), []);
+    assert_eq!(validate(&Scene::default()), []);
+}
+
+#[test]
+fn edits_that_break_a_scene_are_found() {
+    assert_eq!(problem_after(|s| s.camera.target = s.camera.position), "camera.target");
+    assert_eq!(problem_after(|s| s.camera.up = DVec3::Z), "camera.up");
+    assert_eq!(problem_after(|s| s.camera.up = DVec3::ZERO), "camera.up");
+    assert_eq!(problem_after(|s| s.camera.fov_y = f64::NAN), "camera.fov_y");
+    assert_eq!(problem_after(|s| s.camera.fov_y = 180.0), "camera.fov_y");
+    assert_eq!(problem_after(|s| s.film.exposure = f64::INFINITY), "film.exposure");
+    assert_eq!(problem_after(|s| s.render.background.x = -1.0), "render.background");
+    assert_eq!(problem_after(|s| s.materials[1].name = "white".to_owned()), "material[1].name");
+    assert_eq!(problem_after(|s| s.lights[0].name.clear()), "light[0].name");
+    assert_eq!(problem_after(|s| s.objects[0].material = "grey".to_owned()), "object[0].material");
+    let shape = |shape: Shape| problem_after(|s| s.objects[0].shape = shape.clone());
+    assert_eq!(shape(Shape::Sphere { center: DVec3::ZERO, radius: 0.0 }), "object[0].radius");
+    assert_eq!(shape(Shape::Sphere { center: DVec3::NAN, radius: 1.0 }), "object[0].center");
+    assert_eq!(shape(Shape::Quad { corner: DVec3::ZERO, edge_u: DVec3::X, edge_v: -DVec3::X }), "object[0].edge_v");
+    assert_eq!(shape(Shape::Quad { corner: DVec3::ZERO, edge_u: DVec3::ZERO, edge_v: DVec3::X }), "object[0].edge_u");
+    assert_eq!(
+        shape(Shape::Plane { point: DVec3::ZERO, normal: DVec3::Y, u_axis: Some(DVec3::Y) }),
+        "object[0].u_axis"
+    );
+}
+
+#[test]
+fn reflecting_all_the_light_is_allowed() {
+    let mut scene = scene();
+    let polished = |albedo: f32, reflectance: f32| MaterialModel::Polished {
+        albedo: Color::Constant(Rgb::splat(albedo)),
+        reflectance: Color::Constant(Rgb::splat(reflectance)),
+    };
+    for tenths in 0..=10u8 {
+        let part = f32::from(tenths) / 10.0;
+        scene.materials[0].model = polished(part, 1.0 - part);
+        assert_eq!(validate(&scene), [], "{part}");
+    }
+    scene.materials[0].model = polished(0.9, 0.1 + 1e-5);
+    assert_eq!(validate(&scene).len(), 1);
+}
