@@ -1,0 +1,34 @@
+use glam::DVec3;
+
+/// A cubic Bezier curve by its control points.
+#[derive(Clone, Copy)]
+pub(super) struct Cubic(pub(super) [DVec3; 4]);
+
+/// `(1 - t) a + t b`, exact at both ends.
+fn mix(a: DVec3, b: DVec3, t: f64) -> DVec3 {
+    (1.0 - t) * a + t * b
+}
+
+impl Cubic {
+    /// The point at `t`.
+    pub(super) fn eval(&self, t: f64) -> DVec3 {
+        self.derivatives(t)[0]
+    }
+
+    /// The point at `t`, the first and the second derivative.
+    pub(super) fn derivatives(&self, t: f64) -> [DVec3; 3] {
+        let [p0, p1, p2, p3] = self.0;
+        let (a, b, c) = (mix(p0, p1, t), mix(p1, p2, t), mix(p2, p3, t));
+        let (d, e) = (mix(a, b, t), mix(b, c, t));
+        [mix(d, e, t), 3.0 * (e - d), 6.0 * ((c - b) - (b - a))]
+    }
+
+    /// The parts before and after `t = 1/2`.
+    pub(super) fn halves(&self) -> [Self; 2] {
+        let [p0, p1, p2, p3] = self.0;
+        let (a, b, c) = (p0.midpoint(p1), p1.midpoint(p2), p2.midpoint(p3));
+        let (d, e) = (a.midpoint(b), b.midpoint(c));
+        let middle = d.midpoint(e);
+        [Self([p0, a, d, middle]), Self([middle, e, c, p3])]
+    }
+}
