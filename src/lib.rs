@@ -1,5 +1,6 @@
 //! patchlight shows what light does with a curved surface.
 pub mod file;
+pub mod film;
 pub mod geometry;
 pub mod math;
 pub mod scene;

@@ -1,0 +1,95 @@
+use super::{ImageError, LinearImage};
+use crate::{file::write_whole, math::Rgb};
+use exr::prelude::{
+    Encoding, Image, Layer, LayerAttributes, ReadChannels, ReadLayers, ReadSpecificChannel, SpecificChannels,
+    WritableImage, read,
+};
+use std::{
+    fs,
+    io::{self, Cursor},
+    path::Path,
+};
+
+/// Writes a picture as an OpenEXR file of 32-bit floats, whole or not at all. No exposure or tone curve goes into it.
+pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), ImageError> {
+    let failed = |source| ImageError::Write { file: path.to_owned(), source };
+    let width = image.width as usize;
+    let channels = SpecificChannels::rgb(|at: exr::math::Vec2<usize>| {
+        let pixel = image.pixels[at.y() * width + at.x()];
+        (pixel.x, pixel.y, pixel.z)
+    });
+    let size = (width, image.height as usize);
+    let layer = Layer::new(size, LayerAttributes::named("radiance"), Encoding::SMALL_FAST_LOSSLESS, channels);
+    let mut bytes = Cursor::new(Vec::new());
+    Image::from_layer(layer).write().to_buffered(&mut bytes).map_err(|e| failed(io::Error::other(e)))?;
+    write_whole(path, bytes.get_ref()).map_err(failed)
+}
+
+/// Reads the first layer with channels R, G and B of an OpenEXR file, of halves or floats, with alpha or without.
+pub fn read_exr(path: &Path) -> Result<LinearImage, ImageError> {
+    let bytes = fs::read(path).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
+    let image = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels()
+        .required("R")
+        .required("G")
+        .required("B")
+        .collect_pixels(
+            |size, _| LinearImage::black(size.width() as u32, size.height() as u32),
+            |image, at, (r, g, b): (f32, f32, f32)| {
+                image.pixels[at.y() * image.width as usize + at.x()] = Rgb::new(r, g, b);
+            },
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|e| ImageError::Content {
+            file: path.to_owned(),
+            message: format!("no OpenEXR picture in colour: {e}"),
+        })?;
+    Ok(image.layer_data.channel_data.pixels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, f16};
+
+    fn image() -> LinearImage {
+        let pixels = (0..35).map(|k| Rgb::new(k as f32, 1.0 / (k as f32 + 1.0), 1e20 * k as f32)).collect();
+        LinearImage { width: 7, height: 5, pixels }
+    }
+
+    #[test]
+    fn floats_survive_exactly() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.exr");
+        write_exr(&path, &image()).unwrap();
+        assert_eq!(read_exr(&path).unwrap(), image());
+    }
+
+    #[test]
+    fn halves_and_further_channels_are_read() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.exr");
+        let halves = |x: f32| FlatSamples::F16((0..6).map(|k| f16::from_f32(x + k as f32)).collect());
+        let channels = ["A", "B", "G", "R", "depth"].map(|name| AnyChannel::new(name, halves(name.len() as f32)));
+        let size = exr::math::Vec2(3usize, 2usize);
+        Image::from_channels(size, AnyChannels::sort(channels.into_iter().collect())).write().to_file(&path).unwrap();
+        let read = read_exr(&path).unwrap();
+        assert_eq!((read.width, read.height, read.pixels[5]), (3, 2, Rgb::splat(6.0)));
+    }
+
+    #[test]
+    fn broken_files_are_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.exr");
+        write_exr(&path, &image()).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        for length in (0..bytes.len()).step_by(7) {
+            fs::write(&path, &bytes[..length]).unwrap();
+            assert!(matches!(read_exr(&path), Err(ImageError::Content { .. })), "cut after {length} bytes");
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Pictures: linear images, tone curves, PNG and OpenEXR files, and how far one picture is from another.
+
+mod error;
+mod exr;
+mod image;
+mod metrics;
+mod png;
+mod tone;
+
+pub use self::exr::{read_exr, write_exr};
+pub use self::image::LinearImage;
+pub use error::ImageError;
+pub use metrics::{Errors, compare};
+pub use png::{Mask, write_png};
+pub use tone::ToneMap;

@@ -1,0 +1,72 @@
+use super::{ImageError, LinearImage, ToneMap};
+use crate::file::write_whole;
+use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
+use std::{fs, io, path::Path};
+
+/// Writes a picture as a PNG file of 8 bits a channel, sRGB, whole or not at all.
+pub fn write_png(path: &Path, image: &LinearImage, tone: &ToneMap) -> Result<(), ImageError> {
+    let failed = |source| ImageError::Write { file: path.to_owned(), source };
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes)
+        .write_image(tone.map_image(image).as_flattened(), image.width, image.height, ColorType::Rgb8.into())
+        .map_err(|e| failed(io::Error::other(e)))?;
+    write_whole(path, &bytes).map_err(failed)
+}
+
+/// The pixels that count.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mask {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// For each pixel, the top row first, whether it counts.
+    pub inside: Vec<bool>,
+}
+
+impl Mask {
+    /// Reads a PNG or JPEG file, in which bright pixels count.
+    pub fn read(path: &Path) -> Result<Self, ImageError> {
+        let bytes = fs::read(path).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
+        let image = image::load_from_memory(&bytes)
+            .map_err(|e| ImageError::Content { file: path.to_owned(), message: e.to_string() })?
+            .into_luma8();
+        Ok(Self {
+            width: image.width(),
+            height: image.height(),
+            inside: image.iter().map(|luma| *luma > 127).collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{math::Rgb, scene::ToneCurve};
+
+    #[test]
+    fn rows_begin_at_the_top() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.png");
+        let pixels = vec![Rgb::X, Rgb::Y, Rgb::Z, Rgb::ONE, Rgb::splat(0.214_041_14), Rgb::ZERO];
+        let image = LinearImage { width: 2, height: 3, pixels };
+        write_png(&path, &image, &ToneMap::new(0.0, ToneCurve::Srgb)).unwrap();
+        let read = image::open(&path).unwrap().into_rgb8();
+        // 0.21404114 is the radiance of half of full brightness on the sRGB curve: 127.5 of 255.
+        let middle = read.get_pixel(0, 2).0[0];
+        assert!(middle == 127 || middle == 128);
+        assert_eq!(read.get_pixel(1, 0).0, [0, 255, 0]);
+        assert_eq!(read.get_pixel(0, 1).0, [0, 0, 255]);
+        let mask = Mask::read(&path).unwrap();
+        assert_eq!((mask.width, mask.height, mask.inside[3], mask.inside[5]), (2, 3, true, false));
+    }
+
+    #[test]
+    fn what_is_no_image_is_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.png");
+        assert!(matches!(Mask::read(&path), Err(ImageError::Read { .. })));
+        fs::write(&path, b"no image").unwrap();
+        assert!(matches!(Mask::read(&path), Err(ImageError::Content { .. })));
+    }
+}
