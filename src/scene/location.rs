@@ -1,5 +1,8 @@
 use super::built_in::embedded;
-use crate::{file::folder, geometry::bezier::ControlNet};
+use crate::{
+    file::folder,
+    geometry::bezier::{ControlNet, read_bpt},
+};
 use std::{
     borrow::Cow,
     fs, io,
@@ -33,7 +36,7 @@ impl Location {
     pub fn read_patches(&self, relative: &str) -> Result<Vec<ControlNet>, String> {
         let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
         let text = str::from_utf8(&bytes).map_err(|e| format!("\"{relative}\" is no text: {e}"))?;
-        Err(format!("\"{relative}\": {} bytes", text.len()))
+        read_bpt(text).map_err(|e| format!("\"{relative}\": {e}"))
     }
 
     /// The file's path, unless the program carries the file with it.
