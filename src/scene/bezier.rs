@@ -1,5 +1,5 @@
 use crate::geometry::bezier::ControlNet;
-use glam::DVec3;
+use glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
 
 /// Bicubic Bezier patches that move together.
@@ -27,5 +27,32 @@ pub struct Transform {
 impl Default for Transform {
     fn default() -> Self {
         Self { translate: DVec3::ZERO, rotate: DVec3::ZERO, scale: DVec3::ONE }
+    }
+}
+
+impl Transform {
+    /// From the patches' own space to the world.
+    pub fn world_from_object(&self) -> DAffine3 {
+        let [x, y, z] = self.rotate.to_array().map(f64::to_radians);
+        let rotation = DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x);
+        DAffine3 { matrix3: rotation * DMat3::from_diagonal(self.scale), translation: self.translate }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_then_rotates_about_x_then_y_then_z_then_translates() {
+        let transform = Transform {
+            translate: DVec3::new(10.0, 20.0, 30.0),
+            rotate: DVec3::splat(90.0),
+            scale: DVec3::new(2.0, 3.0, 4.0),
+        };
+        // (1, 1, 1) scaled is (2, 3, 4); about x (2, -4, 3); about y (3, -4, -2); about z (4, 3, -2).
+        let moved = transform.world_from_object().transform_point3(DVec3::ONE);
+        // Sines of 90 degrees and sums of size 30 are off by a few ulp.
+        assert!(moved.distance(DVec3::new(14.0, 23.0, 28.0)) < 1e-13, "{moved}");
     }
 }
