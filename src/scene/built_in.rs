@@ -17,7 +17,17 @@ pub const fn built_in_scenes() -> &'static [BuiltInScene] {
     const fn scene(name: &'static str, title: &'static str) -> BuiltInScene {
         BuiltInScene { name, title }
     }
-    &const { [scene("cornell", "Diffuse box")] }
+    &const {
+        [
+            scene("report", "Room with a sheet and two balls"),
+            scene("report-flipped", "The same room, the sheet turned over"),
+            scene("water", "Pool under one patch of water"),
+            scene("cardioid", "Bent mirror and its cusp"),
+            scene("lens", "Glass lens of patches"),
+            scene("teapot", "Newell's teapot"),
+            scene("cornell", "Diffuse box"),
+        ]
+    }
 }
 
 /// The bytes of a file that the program carries with it, by its path in the project, like `assets/textures/a.png`.

@@ -12,8 +12,8 @@ fn every_built_in_scene_opens() {
 
 #[test]
 fn an_unknown_example_suggests_one() {
-    let message = SceneFile::built_in("cornel").unwrap_err().to_string();
-    assert!(message.ends_with("did you mean \"cornell\"?"), "{message}");
+    let message = SceneFile::built_in("tepot").unwrap_err().to_string();
+    assert!(message.ends_with("did you mean \"teapot\"?"), "{message}");
 }
 
 /// All built-in scenes saved to a folder of their own open again as the same, and read the same bytes.
@@ -59,6 +59,20 @@ fn paths_are_rewritten_for_the_new_folder() {
         &*SceneFile::open(&dir.path().join("there/deep/c.toml")).unwrap().location.read("../../images/t.png").unwrap(),
         b"image"
     );
+}
+
+#[test]
+fn other_files_are_never_overwritten() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut file = SceneFile::built_in("report").unwrap();
+    let name = file.scene.textures[0].file.rsplit('/').next().unwrap().to_owned();
+    fs::write(dir.path().join(&name), b"mine").unwrap();
+    file.save(&dir.path().join("a.toml")).unwrap();
+    assert_eq!(fs::read(dir.path().join(&name)).unwrap(), b"mine");
+    assert_ne!(file.scene.textures[0].file, name);
+    let count = fs::read_dir(dir.path()).unwrap().count();
+    SceneFile::built_in("report").unwrap().save(&dir.path().join("b.toml")).unwrap();
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), count + 1, "the second scene shares the first one's files");
 }
 
 #[test]
