@@ -1,0 +1,164 @@
+use super::bezier::{Patch, PatchHit};
+use super::{Bvh, Plane, Quad, Sphere};
+use crate::math::{Aabb, Ray};
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
+
+/// One surface that a ray can meet.
+#[derive(Clone, Debug)]
+pub enum Primitive {
+    /// A parallelogram.
+    Quad(Quad),
+    /// A sphere.
+    Sphere(Sphere),
+    /// An unbounded plane.
+    Plane(Plane),
+    /// A bicubic Bezier patch with its own tree.
+    Patch(Arc<Patch>),
+}
+
+/// Where a ray meets a primitive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// In units of the ray's direction.
+    pub t: f64,
+    /// Index of the primitive.
+    pub primitive: u32,
+    /// Parameters of quads and patches; unused by others.
+    pub u: f64,
+    /// See `u`.
+    pub v: f64,
+}
+
+/// How a surface's parameters run where it was hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tangents {
+    /// As in the scene format: 0 to 1 over a quad, a patch or a sphere, scene units on a plane.
+    pub uv: DVec2,
+    /// Derivative of the position with respect to u.
+    pub dpdu: DVec3,
+    /// Derivative of the position with respect to v.
+    pub dpdv: DVec3,
+}
+
+impl Primitive {
+    /// Empty for a plane, which has no bounds.
+    pub fn bounds(&self) -> Aabb {
+        match self {
+            Self::Quad(quad) => quad.bounds(),
+            Self::Sphere(sphere) => sphere.bounds(),
+            Self::Patch(patch) => patch.bounds(),
+            Self::Plane(_) => Aabb::EMPTY,
+        }
+    }
+
+    #[inline(always)]
+    fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
+        match self {
+            Self::Quad(quad) => quad.intersect(ray),
+            Self::Sphere(sphere) => sphere.intersect(ray).map(|t| (t, 0.0, 0.0)),
+            Self::Patch(patch) => patch.intersect(ray).map(|PatchHit { t, u, v }| (t, u, v)),
+            Self::Plane(plane) => plane.intersect(ray),
+        }
+    }
+
+    /// Position and geometric unit normal (to the front or the outside) of a hit, from the surface itself: as exact
+    /// as its own equation, whatever the ray's length.
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> (DVec3, DVec3) {
+        match self {
+            Self::Quad(quad) => (quad.position(hit.u, hit.v), quad.normal()),
+            Self::Plane(plane) => (plane.position(hit.u, hit.v), plane.normal()),
+            Self::Sphere(sphere) => {
+                let normal = sphere.normal(ray.at(hit.t));
+                (sphere.center + sphere.radius * normal, normal)
+            }
+            Self::Patch(patch) => (patch.net().eval(hit.u, hit.v), patch.normal(hit.u, hit.v)),
+        }
+    }
+
+    /// How the parameters run at a hit with this normal.
+    pub fn tangents(&self, hit: &Hit, normal: DVec3) -> Tangents {
+        let uv = DVec2::new(hit.u, hit.v);
+        match self {
+            Self::Quad(quad) => Tangents { uv, dpdu: quad.edges().0, dpdv: quad.edges().1 },
+            Self::Plane(plane) => Tangents { uv, dpdu: plane.axes().0, dpdv: plane.axes().1 },
+            Self::Sphere(sphere) => {
+                let (dpdu, dpdv) = sphere.derivatives(normal);
+                Tangents { uv: Sphere::uv(normal), dpdu, dpdv }
+            }
+            Self::Patch(patch) => {
+                let d = patch.net().derivatives(hit.u, hit.v);
+                Tangents { uv, dpdu: d.dpdu, dpdv: d.dpdv }
+            }
+        }
+    }
+}
+
+/// All primitives of a scene and the tree over those that have bounds.
+#[derive(Clone, Debug, Default)]
+pub struct Aggregate {
+    primitives: Vec<Primitive>,
+    planes: Vec<u32>,
+    bvh: Bvh,
+}
+
+impl Aggregate {
+    /// Builds the tree; takes n log n.
+    pub fn new(primitives: Vec<Primitive>) -> Self {
+        let boxes: Vec<Aabb> = primitives.iter().map(Primitive::bounds).collect();
+        let planes = (0..primitives.len() as u32).filter(|&i| matches!(primitives[i as usize], Primitive::Plane(_)));
+        Self { planes: planes.collect(), bvh: Bvh::build(&boxes), primitives }
+    }
+
+    /// The same tree fitted to moved primitives: as many, of the same kinds, in the same order. Linear time.
+    pub fn refitted(&self, primitives: Vec<Primitive>) -> Self {
+        let boxes: Vec<Aabb> = primitives.iter().map(Primitive::bounds).collect();
+        let mut bvh = self.bvh.clone();
+        bvh.refit(&boxes);
+        Self { planes: self.planes.clone(), bvh, primitives }
+    }
+
+    /// In the order they were given.
+    pub fn primitives(&self) -> &[Primitive] {
+        &self.primitives
+    }
+
+    /// The box around all that have bounds.
+    pub fn bounds(&self) -> Aabb {
+        self.bvh.bounds()
+    }
+
+    /// The nearest hit with `t_min < t < t_max`.
+    pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        let mut ray = *ray;
+        let mut closest = None;
+        let mut test = |primitive: u32, ray: &mut Ray| {
+            if let Some((t, u, v)) = self.primitives[primitive as usize].intersect(ray) {
+                ray.t_max = t;
+                closest = Some(Hit { t, primitive, u, v });
+            }
+            true
+        };
+        for &plane in &self.planes {
+            test(plane, &mut ray);
+        }
+        self.bvh.traverse(&mut ray, test);
+        closest
+    }
+
+    /// Whether anything is hit with `t_min < t < t_max`.
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        if self.planes.iter().any(|&plane| self.primitives[plane as usize].intersect(ray).is_some()) {
+            return true;
+        }
+        let mut found = false;
+        self.bvh.traverse(&mut ray.clone(), |primitive, ray| {
+            found = match &self.primitives[primitive as usize] {
+                Primitive::Patch(patch) => patch.occluded(ray),
+                other => other.intersect(ray).is_some(),
+            };
+            !found
+        });
+        found
+    }
+}

@@ -1,0 +1,95 @@
+use crate::math::{Aabb, Ray};
+use glam::DVec3;
+
+/// How far outside its edges a quad still counts as hit, in units of (u, v): wider than the rounding of a hit, so
+/// that two quads that share an edge leave no gap between them.
+const EDGE_TOLERANCE: f64 = 1e-12;
+
+/// A parallelogram, prepared for intersection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quad {
+    corner: DVec3,
+    edge_u: DVec3,
+    edge_v: DVec3,
+    normal: DVec3,
+    /// `(p - corner) . dual_u` is the coordinate u of a point in the plane.
+    dual_u: DVec3,
+    dual_v: DVec3,
+}
+
+impl Quad {
+    /// The parallelogram `corner + u edge_u + v edge_v` for u and v in 0 to 1; it meets no ray if its area is zero.
+    pub fn new(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Self {
+        let cross = edge_u.cross(edge_v);
+        let normal = cross.try_normalize().unwrap_or(DVec3::ZERO);
+        let inverse_area = 1.0 / cross.length_squared();
+        let (dual_u, dual_v) = (edge_v.cross(cross) * inverse_area, cross.cross(edge_u) * inverse_area);
+        let valid = normal != DVec3::ZERO && dual_u.is_finite() && dual_v.is_finite();
+        Self { corner, edge_u, edge_v, normal: if valid { normal } else { DVec3::ZERO }, dual_u, dual_v }
+    }
+
+    /// The nearest hit as (t, u, v).
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
+        let t = self.normal.dot(self.corner - ray.origin) / self.normal.dot(ray.direction);
+        // Written so that NaN, from a ray in the plane or an empty quad, is no hit.
+        if !(t > ray.t_min && t < ray.t_max) {
+            return None;
+        }
+        let p = ray.at(t) - self.corner;
+        let (u, v) = (p.dot(self.dual_u), p.dot(self.dual_v));
+        let inside = |x: f64| (-EDGE_TOLERANCE..=1.0 + EDGE_TOLERANCE).contains(&x);
+        (inside(u) && inside(v)).then_some((t, u, v))
+    }
+
+    /// The point at (u, v).
+    pub fn position(&self, u: f64, v: f64) -> DVec3 {
+        self.corner + u * self.edge_u + v * self.edge_v
+    }
+
+    /// Unit vector along `edge_u x edge_v`; zero if the area is zero.
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
+    /// The edges, which are the derivatives of the position.
+    pub fn edges(&self) -> (DVec3, DVec3) {
+        (self.edge_u, self.edge_v)
+    }
+
+    /// In square scene units.
+    pub fn area(&self) -> f64 {
+        self.edge_u.cross(self.edge_v).length()
+    }
+
+    /// The smallest box around the four corners.
+    pub fn bounds(&self) -> Aabb {
+        Aabb::around([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(u, v)| self.position(u, v)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn oblique_quads_know_their_coordinates() {
+        let quad = Quad::new(DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 0.1, 0.0), DVec3::new(0.7, 1.0, 0.3));
+        let eye = DVec3::new(4.0, -3.0, 9.0);
+        for (u, v, inside) in [(0.25, 0.75, true), (1.0, 0.0, true), (1.01, 0.5, false), (0.5, -0.01, false)] {
+            let hit = quad.intersect(&Ray::new(eye, 0.5 * (quad.position(u, v) - eye)));
+            assert_eq!(hit.is_some(), inside, "({u}, {v})");
+            if let Some((t, hit_u, hit_v)) = hit {
+                assert!((t - 2.0).abs() < 1e-12 && (hit_u - u).abs() < 1e-12 && (hit_v - v).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn no_area_no_hit() {
+        let quad = Quad::new(DVec3::ZERO, DVec3::X, DVec3::X);
+        assert_eq!(quad.intersect(&Ray::new(DVec3::Z, DVec3::NEG_Z)), None);
+        let flat = Quad::new(DVec3::ZERO, DVec3::X, DVec3::Y);
+        assert_eq!(flat.intersect(&Ray::new(DVec3::NEG_X, DVec3::X)), None, "a ray in the plane");
+    }
+}
