@@ -1,6 +1,9 @@
 //! patchlight shows what light does with a curved surface.
+pub mod engine;
 pub mod file;
 pub mod film;
 pub mod geometry;
 pub mod math;
 pub mod scene;
+pub mod transport;
+pub mod world;

@@ -10,17 +10,31 @@ use glam::DVec2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stream {
     /// Paths from the camera; one sequence a pixel.
-    Camera = 1,
+    Camera,
     /// Photons aimed at specular surfaces.
-    CausticPhoton = 2,
+    CausticPhoton,
     /// Photons that carry interreflected light.
-    GlobalPhoton = 3,
+    GlobalPhoton,
     /// Rays that look for what a light can reach.
-    Probe = 4,
-    /// Draft frames, which never mix with the others.
-    Draft = 5,
+    Probe,
     /// Everything that tests draw.
-    Test = 6,
+    Test,
+    /// Draft frames draw from the stream with this number, apart from the converging picture.
+    Draft(u8),
+}
+
+impl Stream {
+    /// A number that no other stream has; drafts' are above all others.
+    pub const fn number(self) -> u8 {
+        match self {
+            Self::Camera => 1,
+            Self::CausticPhoton => 2,
+            Self::GlobalPhoton => 3,
+            Self::Probe => 4,
+            Self::Test => 5,
+            Self::Draft(number) => 0x80 | number,
+        }
+    }
 }
 
 /// The point with a given index of one stream; hands out its coordinates in order.
@@ -38,7 +52,7 @@ impl Sampler {
     ///
     /// Indices beyond `2^32` start a new, independently scrambled sequence: nothing repeats.
     pub fn new(seed: u64, stream: Stream, sequence: u64, index: u64) -> Self {
-        let key = mix64(seed ^ mix64(sequence ^ mix64((index >> 32) ^ ((stream as u64) << 56))));
+        let key = mix64(seed ^ mix64(sequence ^ mix64((index >> 32) ^ (u64::from(stream.number()) << 56))));
         let mut sampler =
             Self { index: index as u32, seed: key as u32 ^ (key >> 32) as u32, set: 0, used: 0, point: [0; 4] };
         sampler.load_set();

@@ -1,0 +1,132 @@
+use super::film_sums::FilmSums;
+use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
+use super::iteration::render_iteration;
+use crate::film::LinearImage;
+use crate::scene::SceneFile;
+use crate::transport::{Cancel, Counters, Plan, shrink};
+use crate::world::{PrepareError, World, prepare};
+use std::sync::Arc;
+use std::time::Instant;
+use thiserror::Error;
+
+/// Why a scene can't be rendered.
+#[derive(Debug, Error)]
+pub enum SessionError {
+    /// A part of the scene is missing or damaged.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+    /// The operating system gave no threads.
+    #[error("no threads to render with: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// The rendering of one scene, on the caller's thread and a pool's.
+pub struct Session {
+    world: World,
+    plan: Plan,
+    summary: Arc<PlanSummary>,
+    seed: u64,
+    film: FilmSums,
+    counters: Counters,
+    passes: PassSeconds,
+    seconds: f64,
+}
+
+impl Session {
+    /// Prepares a scene and makes its plan; what a previous session has in common with it is not prepared again.
+    /// To be called inside the thread pool that is to do the work.
+    pub fn prepare(file: &SceneFile, seed: u64, previous: Option<&Self>) -> Result<Self, SessionError> {
+        let start = Instant::now();
+        let world = prepare(&file.scene, &file.location, previous.map(|session| &session.world))?;
+        let plan = Plan::new(&world);
+        let summary = Arc::new(PlanSummary { notes: plan.notes.clone() });
+        let film = FilmSums::new(plan.camera.width, plan.camera.height);
+        let passes = PassSeconds { prepare: start.elapsed().as_secs_f64(), ..PassSeconds::default() };
+        Ok(Self { world, plan, summary, seed, film, counters: Counters::default(), passes, seconds: 0.0 })
+    }
+
+    /// What is rendered and what is skipped.
+    pub fn plan(&self) -> &Arc<PlanSummary> {
+        &self.summary
+    }
+
+    /// Renders the next iteration and adds it to the film; `None`, and nothing added, when cancelled.
+    pub fn advance(&mut self, cancel: Cancel) -> Option<()> {
+        let start = Instant::now();
+        let number = self.film.iterations() + 1;
+        let iteration = render_iteration(&self.world, &self.plan, self.seed, number, cancel);
+        if let Some(iteration) = &iteration {
+            let commit = Instant::now();
+            self.film.commit(number, &iteration.radiance);
+            self.passes += iteration.seconds;
+            self.passes.commit += commit.elapsed().as_secs_f64();
+            self.counters += iteration.counters;
+        }
+        self.seconds += start.elapsed().as_secs_f64();
+        iteration.map(|_| ())
+    }
+
+    /// Iterations in the film.
+    pub fn iterations(&self) -> u64 {
+        self.film.iterations()
+    }
+
+    /// Seconds that iterations took.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// The sums of the iterations so far.
+    pub fn film(&self) -> &FilmSums {
+        &self.film
+    }
+
+    /// The picture so far.
+    pub fn frame(&self, generation: u64) -> Frame {
+        let image = Arc::new(self.film.image());
+        self.frame_of(generation, image, self.film.iterations(), self.stats())
+    }
+
+    /// A quick first picture of every `coarseness`-th pixel each way; leaves the film as it is.
+    pub fn draft(&self, generation: u64, coarseness: u32) -> Frame {
+        let start = Instant::now();
+        let plan = self.plan.draft(coarseness);
+        let (width, height) = (plan.camera.width, plan.camera.height);
+        let Some(drawn) = render_iteration(&self.world, &plan, self.seed, 1, Cancel::NEVER) else {
+            return self.frame(generation);
+        };
+        let stats = stats(&drawn.counters, drawn.seconds, start.elapsed().as_secs_f64());
+        let image = LinearImage { width, height, pixels: drawn.radiance };
+        Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) }
+    }
+
+    /// How the picture came about so far.
+    pub fn stats(&self) -> Stats {
+        let distance = self.world.camera.position.distance(self.world.center);
+        let pixels = if self.plan.caustics.is_some() { self.plan.caustic_radius } else { self.plan.global_radius };
+        Stats {
+            iterations: self.film.iterations(),
+            radius: pixels * self.plan.camera.footprint(distance) * shrink(self.film.iterations()),
+            error_estimate: self.film.error_estimate(),
+            ..stats(&self.counters, self.passes, self.seconds)
+        }
+    }
+
+    fn frame_of(&self, generation: u64, image: Arc<LinearImage>, iteration: u64, stats: Stats) -> Frame {
+        Frame { generation, draft: false, iteration, image, stats, plan: self.summary.clone() }
+    }
+}
+
+fn stats(counters: &Counters, passes: PassSeconds, seconds: f64) -> Stats {
+    let photons_emitted = counters.caustic_paths + counters.global_paths;
+    Stats {
+        photons_emitted,
+        rays: counters.rays + counters.shadow_rays,
+        dropped_samples: counters.dropped_samples,
+        seconds,
+        photons_per_second: if seconds > 0.0 { photons_emitted as f64 / seconds } else { 0.0 },
+        passes,
+        counters: *counters,
+        ..Stats::default()
+    }
+}

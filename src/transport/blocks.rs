@@ -1,0 +1,35 @@
+//! How passes are cut into pieces that threads take: always the same pieces, joined in the same order, so that the
+//! number of threads changes nothing.
+
+use super::counters::Counters;
+use std::ops::Range;
+
+/// Paths of one piece of a photon pass: small enough to be cancelled within a millisecond or two.
+const PATHS_PER_BLOCK: u64 = 2048;
+
+/// Some paths of one light.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    pub(super) light: usize,
+    pub(super) paths: Range<u64>,
+}
+
+/// The blocks of a pass that sends so many paths from each light.
+pub(super) fn of_photons(paths_by_light: &[u64]) -> Vec<Block> {
+    let of_light = |(light, &count): (usize, &u64)| {
+        (0..count.div_ceil(PATHS_PER_BLOCK))
+            .map(move |k| Block { light, paths: k * PATHS_PER_BLOCK..((k + 1) * PATHS_PER_BLOCK).min(count) })
+    };
+    paths_by_light.iter().enumerate().flat_map(of_light).collect()
+}
+
+/// The pieces' items in order, and their counters' sum.
+pub(super) fn concatenate<T: Copy>(pieces: Vec<(Vec<T>, Counters)>) -> (Vec<T>, Counters) {
+    let mut all = Vec::with_capacity(pieces.iter().map(|(items, _)| items.len()).sum());
+    let mut counters = Counters::default();
+    for (items, piece_counters) in pieces {
+        all.extend_from_slice(&items);
+        counters += piece_counters;
+    }
+    (all, counters)
+}

@@ -1,0 +1,302 @@
+//! Paths from the camera: to what emits, to direct light, and to the visible points where photons will be gathered.
+
+use super::bsdf;
+use super::counters::Counters;
+use super::direct::{self, Vertex};
+use super::medium::Media;
+use super::photon;
+use super::plan::Plan;
+use super::{Cancel, Rows};
+use crate::math::{Ray, Rgb, Sampler, Stream};
+use crate::world::{Light, Lobe, Scattering, Surface, SurfacePoint, World};
+use arrayvec::ArrayVec;
+use glam::{DVec2, DVec3, Vec3};
+use rayon::prelude::*;
+
+/// Both sides of an interface are followed this often on a path; then one is chosen at random.
+const FOLLOWED_SPLITS: u32 = 2;
+/// Branches with less throughput than this are continued at random.
+const WEAK_BRANCH: f32 = 0.02;
+/// Enough for two branches at each followed split and one continuation each.
+const MAX_BRANCHES: usize = 16;
+
+/// A point that the camera sees, directly or in mirrors and through glass, and that scatters light.
+#[derive(Clone, Copy, Debug)]
+pub struct VisiblePoint {
+    /// Row by row from the top of the film.
+    pub pixel: u32,
+    /// Relative to the middle of the world.
+    pub position: Vec3,
+    /// Geometric unit normal on the seen side.
+    pub n_side: Vec3,
+    /// Shading unit normal on the seen side.
+    pub n_shade: Vec3,
+    /// Towards where it is seen from.
+    pub wo: Vec3,
+    /// What the camera keeps of light that leaves towards `wo`.
+    pub throughput: Rgb,
+    /// How it scatters.
+    pub scattering: Scattering,
+    /// Side of the pixel's footprint, scene units.
+    pub footprint: f32,
+    /// Where on which primitive.
+    pub primitive: u32,
+    /// Parameters on it.
+    pub uv: DVec2,
+    /// First tag of the photons on the same surface and side.
+    pub tag: u32,
+    /// Scattering events that a photon may have behind it to be counted here.
+    pub photon_bounces: u32,
+    /// Whether nothing is between it and the camera.
+    pub seen_directly: bool,
+}
+
+/// What the camera pass finds out about some rows of the film.
+#[derive(Clone, Debug, Default)]
+pub struct CameraBatch {
+    /// Where photons are to be gathered, row by row.
+    pub visible_points: Vec<VisiblePoint>,
+    /// For each pixel of the rows the radiance found so far: emitted and direct light.
+    pub radiance: Vec<Rgb>,
+    /// What was done.
+    pub counters: Counters,
+}
+
+/// One sample for every pixel of some rows; `None` when cancelled.
+pub fn camera_pass(
+    world: &World,
+    plan: &Plan,
+    rows: &Rows,
+    seed: u64,
+    iteration: u64,
+    cancel: Cancel,
+) -> Option<CameraBatch> {
+    let by_row: Vec<CameraBatch> = rows
+        .clone()
+        .into_par_iter()
+        .map(|row| {
+            let mut walk = Walk { world, plan, batch: CameraBatch::default(), branches: ArrayVec::new() };
+            for pixel in row * plan.camera.width..(row + 1) * plan.camera.width {
+                let sampler = Sampler::new(seed, plan.stream(Stream::Camera), u64::from(pixel), iteration - 1);
+                walk.trace_pixel(pixel, sampler);
+            }
+            (!cancel.is_cancelled()).then_some(walk.batch)
+        })
+        .collect::<Option<_>>()?;
+    let mut all = CameraBatch::default();
+    for batch in by_row {
+        all.visible_points.extend_from_slice(&batch.visible_points);
+        all.radiance.extend_from_slice(&batch.radiance);
+        all.counters += batch.counters;
+    }
+    Some(all)
+}
+
+struct Walk<'a> {
+    world: &'a World,
+    plan: &'a Plan,
+    batch: CameraBatch,
+    branches: ArrayVec<Branch, MAX_BRANCHES>,
+}
+
+/// One way that a path from the camera goes on.
+#[derive(Clone, Debug)]
+struct Branch {
+    ray: Ray,
+    throughput: Rgb,
+    media: Media,
+    /// Scattering events so far.
+    bounces: u32,
+    splits: u32,
+    /// Length of the path so far.
+    distance: f64,
+    /// How light is counted that a light sends along this branch.
+    last: Last,
+}
+
+/// The last event before a branch.
+#[derive(Clone, Copy, Debug)]
+enum Last {
+    /// The camera, mirrors and glass: nothing else finds what emits here.
+    Specular,
+    /// A Phong lobe at this point with this density of the direction: direct light finds the same.
+    Glossy { from: DVec3, pdf: f64 },
+    /// Mirrors or glass behind a Phong lobe: caustic photons find the same.
+    SpecularAfterGlossy,
+}
+
+impl Walk<'_> {
+    fn trace_pixel(&mut self, pixel: u32, mut sampler: Sampler) {
+        let corner = DVec2::new(f64::from(pixel % self.plan.camera.width), f64::from(pixel / self.plan.camera.width));
+        let ray = self.plan.camera.ray(corner + sampler.next_2d());
+        self.branches.push(Branch {
+            ray,
+            throughput: Rgb::ONE,
+            media: Media::default(),
+            bounces: 0,
+            splits: 0,
+            distance: 0.0,
+            last: Last::Specular,
+        });
+        let mut radiance = Rgb::ZERO;
+        while let Some(branch) = self.branches.pop() {
+            radiance += self.follow(branch, pixel, &mut sampler);
+        }
+        if !radiance.is_finite() {
+            self.batch.counters.dropped_samples += 1;
+            radiance = Rgb::ZERO;
+        }
+        self.batch.radiance.push(radiance);
+    }
+
+    /// To the next surface; returns the light that the camera gets from it without photons.
+    fn follow(&mut self, mut branch: Branch, pixel: u32, sampler: &mut Sampler) -> Rgb {
+        self.batch.counters.rays += 1;
+        let Some(hit) = self.world.aggregate.closest_hit(&branch.ray) else {
+            return branch.throughput * self.world.background;
+        };
+        let point = self.world.surface_point(&branch.ray, hit);
+        branch.throughput *= branch.media.transmittance(self.world, hit.t);
+        branch.distance += hit.t;
+        let (object, material) = match self.world.surfaces[hit.primitive as usize] {
+            Surface::Light(light) => return emitted(&self.world.lights[light as usize], &branch, &point),
+            Surface::Object { object, material, .. } => (object, material),
+        };
+        if branch.bounces >= self.world.max_bounces {
+            return Rgb::ZERO;
+        }
+        let (scattering, n_shade) = self.world.scattering(&point, material);
+        self.batch.counters.texture_lookups += u64::from(self.world.materials[material as usize].lookups());
+        let wo = -branch.ray.direction;
+        let vertex = Vertex { point, scattering, n_side: point.n_side(), n_shade, wo };
+        let scatters = scattering.albedo != Rgb::ZERO || matches!(scattering.lobe, Lobe::Phong { .. });
+        let mut radiance = Rgb::ZERO;
+        if scatters {
+            radiance = branch.throughput * direct::direct_light(self.world, &vertex, sampler, &mut self.batch.counters);
+            if self.plan.gathers() {
+                self.batch.visible_points.push(self.visible_point(&branch, &vertex, pixel, object));
+            }
+        }
+        self.branch_off(&branch, &vertex, material, sampler);
+        radiance
+    }
+
+    fn visible_point(&self, branch: &Branch, vertex: &Vertex, pixel: u32, object: u32) -> VisiblePoint {
+        VisiblePoint {
+            pixel,
+            position: (vertex.point.position - self.world.center).as_vec3(),
+            n_side: vertex.n_side.as_vec3(),
+            n_shade: vertex.n_shade.as_vec3(),
+            wo: vertex.wo.as_vec3(),
+            throughput: branch.throughput,
+            scattering: vertex.scattering,
+            footprint: self.plan.camera.footprint(branch.distance) as f32,
+            primitive: vertex.point.hit.primitive,
+            uv: DVec2::new(vertex.point.hit.u, vertex.point.hit.v),
+            tag: photon::tag(object, vertex.point.front, 0),
+            photon_bounces: (self.world.max_bounces - branch.bounces - 1).min(photon::MAX_TAG_BOUNCES),
+            seen_directly: branch.bounces == 0,
+        }
+    }
+
+    /// Continues along mirrors, glass and Phong lobes.
+    fn branch_off(&mut self, branch: &Branch, vertex: &Vertex, material: u32, sampler: &mut Sampler) {
+        let mirrored = || bsdf::reflect_above(vertex.wo, vertex.n_shade, vertex.n_side);
+        match vertex.scattering.lobe {
+            Lobe::None => {}
+            Lobe::Mirror { reflectance } => {
+                self.push(branch.specular(vertex, self.world, mirrored(), reflectance), sampler)
+            }
+            Lobe::Glass { tint, .. } => self.branch_at_interface(branch, vertex, material, tint, sampler),
+            Lobe::Phong { .. } => {
+                let u = sampler.next_2d();
+                let sampled = bsdf::sample_glossy(&vertex.scattering, vertex.n_shade, vertex.n_side, vertex.wo, u);
+                if let Some((wi, weight)) = sampled {
+                    let pdf = bsdf::pdf_glossy(&vertex.scattering, vertex.n_shade, vertex.wo, wi);
+                    let mut next = branch.specular(vertex, self.world, wi, weight);
+                    next.last = Last::Glossy { from: vertex.point.position, pdf };
+                    self.push(next, sampler);
+                }
+            }
+        }
+    }
+
+    fn branch_at_interface(
+        &mut self,
+        branch: &Branch,
+        vertex: &Vertex,
+        material: u32,
+        tint: Rgb,
+        sampler: &mut Sampler,
+    ) {
+        let entering = vertex.point.front;
+        let eta = branch.media.eta(self.world, material, entering);
+        let fresnel = bsdf::fresnel(vertex.wo.dot(vertex.n_shade), eta);
+        let mirrored = bsdf::reflect_above(vertex.wo, vertex.n_shade, vertex.n_side);
+        let mut reflected = branch.specular(vertex, self.world, mirrored, Rgb::ONE);
+        if fresnel.reflectance >= 1.0 {
+            return self.push(reflected, sampler);
+        }
+        // Radiance is squeezed into a smaller solid angle in the denser medium: by eta^2, which light that travels
+        // from the lights does not feel.
+        let direction = bsdf::refract(vertex.wo, vertex.n_shade, eta, fresnel.cos_transmitted);
+        let mut refracted = branch.specular(vertex, self.world, direction, tint / (eta * eta) as f32);
+        refracted.media = branch.media.crossed(material, entering);
+        if branch.splits < FOLLOWED_SPLITS {
+            reflected.throughput *= fresnel.reflectance as f32;
+            refracted.throughput *= (1.0 - fresnel.reflectance) as f32;
+            (reflected.splits, refracted.splits) = (branch.splits + 1, branch.splits + 1);
+            self.push(reflected, sampler);
+            self.push(refracted, sampler);
+        } else {
+            let is_reflected = sampler.next_1d() < fresnel.reflectance;
+            self.push(if is_reflected { reflected } else { refracted }, sampler);
+        }
+    }
+
+    fn push(&mut self, mut branch: Branch, sampler: &mut Sampler) {
+        let strength = branch.throughput.max_element();
+        if strength < WEAK_BRANCH {
+            let survival = strength / WEAK_BRANCH;
+            if !(sampler.next_1d() < f64::from(survival)) {
+                return;
+            }
+            branch.throughput /= survival;
+        }
+        if self.branches.try_push(branch).is_err() {
+            self.batch.counters.dropped_samples += 1;
+        }
+    }
+}
+
+impl Branch {
+    /// The branch after a mirror-like event with this weight.
+    fn specular(&self, vertex: &Vertex, world: &World, direction: DVec3, weight: Rgb) -> Self {
+        Self {
+            ray: Ray::new(world.leave(&vertex.point, direction), direction),
+            throughput: self.throughput * weight,
+            media: self.media.clone(),
+            bounces: self.bounces + 1,
+            splits: self.splits,
+            distance: self.distance,
+            last: match self.last {
+                Last::Specular => Last::Specular,
+                Last::Glossy { .. } | Last::SpecularAfterGlossy => Last::SpecularAfterGlossy,
+            },
+        }
+    }
+}
+
+/// Light that the camera gets from a light's own surface.
+fn emitted(light: &Light, branch: &Branch, point: &SurfacePoint) -> Rgb {
+    let radiance = branch.throughput * light.emitted(point.n_geom, -branch.ray.direction);
+    match branch.last {
+        Last::Specular => radiance,
+        Last::SpecularAfterGlossy => Rgb::ZERO,
+        Last::Glossy { from, pdf } => {
+            let direction = branch.ray.direction;
+            let pdf_direct = direct::pdf_light(light, from, direction, from.distance(point.position), point.n_geom);
+            radiance * (pdf / (pdf + pdf_direct)) as f32
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Photons to radiance: density estimates at visible points.
+
+use super::bsdf;
+use super::camera_pass::VisiblePoint;
+use super::counters::Counters;
+use super::kernel;
+use super::photon_map::{PhotonMap, Query};
+use super::photon_pass::MAX_SHADING_FACTOR;
+use super::plan::Plan;
+use super::{Cancel, schedule};
+use crate::geometry::Primitive;
+use crate::math::Rgb;
+use crate::world::{Lobe, SharedEdges, Surface, World};
+use glam::{DVec2, DVec3};
+use multiversion::multiversion;
+use rayon::prelude::*;
+
+/// Visible points of one piece of the pass.
+const POINTS_PER_BLOCK: usize = 1024;
+/// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
+const MAX_PART_OF_SPHERE: f64 = 0.3;
+
+/// The maps of an iteration.
+#[derive(Clone, Debug, Default)]
+pub struct Maps {
+    /// Photons that only mirrors and glass have touched.
+    pub caustic: PhotonMap,
+    /// Photons that were scattered in many directions before.
+    pub global: PhotonMap,
+}
+
+/// Radiance that each visible point adds to its pixel, in their order; `None` when cancelled.
+pub fn gather(
+    world: &World,
+    plan: &Plan,
+    maps: &Maps,
+    points: &[VisiblePoint],
+    iteration: u64,
+    cancel: Cancel,
+) -> Option<(Vec<Rgb>, Counters)> {
+    let blocks: Vec<(Vec<Rgb>, Counters)> = points
+        .par_chunks(POINTS_PER_BLOCK)
+        .map(|points| {
+            let mut counters = Counters::default();
+            let gatherer = Gatherer { world, plan, maps, iteration };
+            let radiance = gather_block(&gatherer, points, &mut counters);
+            (!cancel.is_cancelled()).then_some((radiance, counters))
+        })
+        .collect::<Option<_>>()?;
+    Some(super::blocks::concatenate(blocks))
+}
+
+struct Gatherer<'a> {
+    world: &'a World,
+    plan: &'a Plan,
+    maps: &'a Maps,
+    iteration: u64,
+}
+
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn gather_block(gatherer: &Gatherer, points: &[VisiblePoint], counters: &mut Counters) -> Vec<Rgb> {
+    points.iter().map(|point| gatherer.at(point, counters)).collect()
+}
+
+impl Gatherer<'_> {
+    #[inline(always)]
+    fn at(&self, point: &VisiblePoint, counters: &mut Counters) -> Rgb {
+        let mut radiance = Rgb::ZERO;
+        let caustics_here = !point.seen_directly || self.plan.gathers_visible_caustics(self.iteration);
+        if caustics_here && !self.maps.caustic.is_empty() {
+            counters.caustic_gathers += 1;
+            radiance += self.estimate(&self.maps.caustic, point, self.plan.caustic_radius, true);
+        }
+        if !self.maps.global.is_empty() && point.scattering.albedo != Rgb::ZERO {
+            counters.global_gathers += 1;
+            radiance += self.estimate(&self.maps.global, point, self.plan.global_radius, false);
+        }
+        if radiance.is_finite() {
+            radiance
+        } else {
+            counters.dropped_samples += 1;
+            Rgb::ZERO
+        }
+    }
+
+    /// The density estimate of reflected radiance: `sum f flux K / integral of K` over the disc on the surface. Light
+    /// in a Phong lobe counts for caustic photons only; the camera's own paths find the rest of it.
+    #[inline(always)]
+    fn estimate(&self, map: &PhotonMap, point: &VisiblePoint, pixels: f64, with_lobe: bool) -> Rgb {
+        let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
+        let limit =
+            if let Primitive::Sphere(sphere) = primitive { MAX_PART_OF_SPHERE * sphere.radius } else { f64::MAX };
+        let largest = self.plan.largest_radius * self.world.radius;
+        let first = (pixels * f64::from(point.footprint)).min(largest).max(1e-6 * self.world.radius);
+        let radius = (first * schedule::shrink(self.iteration)).min(limit);
+        let query = Query {
+            position: point.position,
+            normal: point.n_side,
+            radius: radius as f32,
+            tag_start: point.tag,
+            tag_span: point.photon_bounces + 1,
+        };
+        let has_lobe = with_lobe && matches!(point.scattering.lobe, Lobe::Phong { .. });
+        let reflected = if has_lobe || point.n_shade != point.n_side {
+            directional_sum(map, &query, point, has_lobe)
+        } else {
+            map.sum_flux(&query) * bsdf::eval_diffuse(&point.scattering)
+        };
+        if reflected == Rgb::ZERO {
+            return Rgb::ZERO;
+        }
+        let Surface::Object { shared, .. } = self.world.surfaces[point.primitive as usize] else { return Rgb::ZERO };
+        let area = surface_in_disc(primitive, point, shared, radius);
+        point.throughput * reflected / area as f32
+    }
+}
+
+/// Sum over the disc of `f flux K |cos to the shading normal| / |cos to the surface|`: the flux of photons is counted
+/// on the surface as it is, and reflected as it is bumped.
+fn directional_sum(map: &PhotonMap, query: &Query, point: &VisiblePoint, with_lobe: bool) -> Rgb {
+    let diffuse = bsdf::eval_diffuse(&point.scattering);
+    let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
+    let mut sum = Rgb::ZERO;
+    map.for_each(query, |weight, flux, wi| {
+        let (cos_shade, cos_side) = (wi.dot(point.n_shade), wi.dot(point.n_side));
+        if cos_shade <= 0.0 || cos_side <= 0.0 {
+            return;
+        }
+        let glossy =
+            if with_lobe { bsdf::eval_glossy(&point.scattering, n_shade, wo, wi.as_dvec3()) } else { Rgb::ZERO };
+        sum += weight * flux * (diffuse + glossy) * (cos_shade / cos_side).min(MAX_SHADING_FACTOR as f32);
+    });
+    sum
+}
+
+/// The integral of the kernel over the part of the disc that the surface fills: without it, edges would be dark.
+fn surface_in_disc(primitive: &Primitive, point: &VisiblePoint, shared: SharedEdges, radius: f64) -> f64 {
+    let (dpdu, dpdv) = match primitive {
+        Primitive::Sphere(_) | Primitive::Plane(_) => return kernel::full_integral(radius),
+        Primitive::Quad(quad) => quad.edges(),
+        Primitive::Patch(patch) => {
+            if shared.u == [true; 2] && shared.v == [true; 2] {
+                return kernel::full_integral(radius);
+            }
+            // To first order the patch is the parallelogram that its derivatives span.
+            let d = patch.net().derivatives(point.uv.x, point.uv.y);
+            (d.dpdu, d.dpdv)
+        }
+    };
+    let open = [shared.v[0], shared.u[1], shared.v[1], shared.u[0]];
+    let (e0, e1) = plane_axes(dpdu, dpdv);
+    let flat = |edge: DVec3| DVec2::new(edge.dot(e0), edge.dot(e1));
+    let (u, v) = (flat(dpdu), flat(dpdv));
+    if u.perp_dot(v).abs() <= 1e-9 * u.length() * v.length() {
+        return kernel::full_integral(radius);
+    }
+    kernel::clipped_integral(-(point.uv.x * u) - point.uv.y * v, u, v, open, radius)
+}
+
+/// Orthonormal axes of the plane of two vectors.
+fn plane_axes(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
+    let e0 = a.normalize_or_zero();
+    (e0, (b - e0 * e0.dot(b)).normalize_or_zero())
+}

@@ -1,0 +1,65 @@
+//! Light transport: scattering at surfaces, the plan of what a scene needs, and the passes of an iteration.
+//!
+//! Every path of light belongs to exactly one component, by its vertices from the light to the camera (L light,
+//! S mirror or glass, D the last surface that scatters in many directions, E eye):
+//!
+//! | component | paths | found by |
+//! |---|---|---|
+//! | emission | `L S* E` | [`camera_pass`] |
+//! | direct light | `L D S* E` | [`camera_pass`], next event estimation |
+//! | visible caustics | `L S+ D E` | [`caustic_photon_pass`], added to the film |
+//! | caustics in mirrors and glass | `L S+ D S+ E` | [`caustic_photon_pass`], density estimate |
+//! | interreflection | `L .. D .. D S* E` | [`global_photon_pass`], density estimate |
+//!
+//! A pass is a function of the world, the plan, the seed and the number of the iteration; it returns what it found.
+
+mod blocks;
+mod bsdf;
+mod camera_pass;
+mod caustic_pass;
+mod counters;
+mod direct;
+mod emission;
+mod gather;
+mod guide;
+mod kernel;
+mod medium;
+mod photon;
+mod photon_map;
+mod photon_pass;
+mod plan;
+mod schedule;
+
+pub use bsdf::{Fresnel, fresnel};
+pub use camera_pass::{CameraBatch, VisiblePoint, camera_pass};
+pub use caustic_pass::{CausticBatch, Splat, caustic_photon_pass};
+pub use counters::Counters;
+pub use gather::{Maps, gather};
+pub use guide::Guide;
+pub use photon::{PackedDirection, Photon};
+pub use photon_map::{PhotonMap, Query};
+pub use photon_pass::global_photon_pass;
+pub use plan::{CausticPlan, Plan, PlanNote};
+pub use schedule::shrink;
+
+/// Rows of the film, from the top.
+pub type Rows = std::ops::Range<u32>;
+
+/// How a pass learns that nobody wants its result any more.
+#[derive(Clone, Copy)]
+pub struct Cancel<'a>(&'a (dyn Fn() -> bool + Sync));
+
+impl<'a> Cancel<'a> {
+    /// Passes ask this function now and then, from any thread; once it says yes they return nothing.
+    pub fn when(cancelled: &'a (dyn Fn() -> bool + Sync)) -> Self {
+        Self(cancelled)
+    }
+
+    /// For passes that always finish.
+    pub const NEVER: Cancel<'static> = Cancel(&|| false);
+
+    /// Whether to give up.
+    pub fn is_cancelled(&self) -> bool {
+        (self.0)()
+    }
+}

@@ -1,0 +1,329 @@
+//! The photon map: a kd-tree with spatial-median splits over photons in Morton order.
+//!
+//! Sorting the photons by Morton code is the whole construction: every node is a range of the sorted array, split
+//! where the highest differing bit of the codes changes. Leaves keep their photons in columns, side by side.
+
+use super::photon::Photon;
+use crate::math::Rgb;
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// Photons in a leaf at most, unless they are in the same place.
+const LEAF_SIZE: usize = 16;
+/// Bits of a Morton code: 11 for x, 11 for y, 10 for z.
+const DIGIT_BITS: u32 = 11;
+
+/// A node of the tree in depth-first order.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    min: Vec3,
+    max: Vec3,
+    /// First photon of the range.
+    start: u32,
+    /// Photons of a leaf; 0 for an inner node.
+    count: u32,
+    /// The node that follows when this one's descendants are left out.
+    skip: u32,
+}
+
+/// Photons for queries by place.
+#[derive(Clone, Debug, Default)]
+pub struct PhotonMap {
+    nodes: Vec<Node>,
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    red: Vec<f32>,
+    green: Vec<f32>,
+    blue: Vec<f32>,
+    tag: Vec<u32>,
+    wi: Vec<u32>,
+}
+
+/// What a density estimate looks for.
+#[derive(Clone, Copy, Debug)]
+pub struct Query {
+    /// In the coordinates of the photons.
+    pub position: Vec3,
+    /// Unit length; photons farther than [`Query::SLAB`] radii from the tangent plane belong to another surface.
+    pub normal: Vec3,
+    /// Of the disc.
+    pub radius: f32,
+    /// Photons count whose tag is at least this, by less than `tag_span`.
+    pub tag_start: u32,
+    /// See `tag_start`.
+    pub tag_span: u32,
+}
+
+impl Query {
+    /// Half the thickness of the disc, in radii: a surface curves away from its tangent plane by a quarter of the
+    /// radius where the radius is half the radius of curvature.
+    pub const SLAB: f32 = 0.25;
+}
+
+impl PhotonMap {
+    /// The map of these photons. Depends on their order only among photons in the same place.
+    pub fn build(photons: &[Photon]) -> Self {
+        let order = morton_order(photons);
+        let column = |f: fn(&Photon) -> f32| -> Vec<f32> {
+            order.par_iter().with_min_len(1 << 14).map(|&(_, i)| f(&photons[i as usize])).collect()
+        };
+        let bits = |f: fn(&Photon) -> u32| -> Vec<u32> {
+            order.par_iter().with_min_len(1 << 14).map(|&(_, i)| f(&photons[i as usize])).collect()
+        };
+        let mut map = Self {
+            nodes: Vec::with_capacity(photons.len() / 4),
+            x: column(|p| p.position.x),
+            y: column(|p| p.position.y),
+            z: column(|p| p.position.z),
+            red: column(|p| p.flux.x),
+            green: column(|p| p.flux.y),
+            blue: column(|p| p.flux.z),
+            tag: bits(|p| p.tag),
+            wi: bits(|p| p.wi.bits()),
+        };
+        let codes: Vec<u32> = order.iter().map(|&(code, _)| code).collect();
+        if !codes.is_empty() {
+            map.build_node(&codes, 0, codes.len());
+        }
+        map
+    }
+
+    /// Appends the subtree over a range and returns its box.
+    fn build_node(&mut self, codes: &[u32], start: usize, end: usize) -> (Vec3, Vec3) {
+        let index = self.nodes.len();
+        let count = end - start;
+        self.nodes.push(Node { min: Vec3::ZERO, max: Vec3::ZERO, start: start as u32, count: 0, skip: 0 });
+        let differing = codes[start] ^ codes[end - 1];
+        let (min, max) = if count <= LEAF_SIZE || differing == 0 {
+            self.nodes[index].count = count as u32;
+            self.range_bounds(start, end)
+        } else {
+            let bit = 1 << differing.ilog2();
+            let middle = start + codes[start..end].partition_point(|code| code & bit == 0);
+            let (left, right) = (self.build_node(codes, start, middle), self.build_node(codes, middle, end));
+            (left.0.min(right.0), left.1.max(right.1))
+        };
+        let skip = self.nodes.len() as u32;
+        let node = &mut self.nodes[index];
+        (node.min, node.max, node.skip) = (min, max, skip);
+        (min, max)
+    }
+
+    fn range_bounds(&self, start: usize, end: usize) -> (Vec3, Vec3) {
+        let extent = |column: &[f32]| {
+            column[start..end].iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)))
+        };
+        let ((x0, x1), (y0, y1), (z0, z1)) = (extent(&self.x), extent(&self.y), extent(&self.z));
+        (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
+    }
+
+    /// The number of photons.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is no photon.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// Sum of flux times the Epanechnikov kernel `1 - d^2 / r^2` over the photons of the disc.
+    #[inline(always)]
+    pub(super) fn sum_flux(&self, query: &Query) -> Rgb {
+        let mut sums = [[0.0f32; LANES]; 3];
+        self.visit_leaves(query, |start, end| {
+            let mut first = start;
+            while first < end {
+                let lanes = (end - first).min(LANES);
+                self.accumulate(query, first, lanes, &mut sums);
+                first += lanes;
+            }
+        });
+        Rgb::from_array(sums.map(|lanes| lanes.iter().sum()))
+    }
+
+    /// Adds up to [`LANES`] photons to as many partial sums.
+    #[inline(always)]
+    fn accumulate(&self, query: &Query, first: usize, lanes: usize, sums: &mut [[f32; LANES]; 3]) {
+        if lanes < LANES {
+            for k in first..first + lanes {
+                let weight = self.weight(query, k);
+                sums[0][0] += weight * self.red[k];
+                sums[1][0] += weight * self.green[k];
+                sums[2][0] += weight * self.blue[k];
+            }
+            return;
+        }
+        let range = first..first + LANES;
+        let (x, y, z) = (&self.x[range.clone()], &self.y[range.clone()], &self.z[range.clone()]);
+        let tag = &self.tag[range.clone()];
+        let mut weights = [0.0f32; LANES];
+        let inverse = 1.0 / (query.radius * query.radius);
+        for k in 0..LANES {
+            weights[k] = kernel_weight(query, inverse, Vec3::new(x[k], y[k], z[k]), tag[k]);
+        }
+        let (red, green, blue) = (&self.red[range.clone()], &self.green[range.clone()], &self.blue[range]);
+        for k in 0..LANES {
+            sums[0][k] += weights[k] * red[k];
+            sums[1][k] += weights[k] * green[k];
+            sums[2][k] += weights[k] * blue[k];
+        }
+    }
+
+    #[inline(always)]
+    fn weight(&self, query: &Query, k: usize) -> f32 {
+        let position = Vec3::new(self.x[k], self.y[k], self.z[k]);
+        kernel_weight(query, 1.0 / (query.radius * query.radius), position, self.tag[k])
+    }
+
+    /// Calls `photon(kernel weight, flux, direction to where the photon came from)` for each photon of the disc.
+    pub(super) fn for_each(&self, query: &Query, mut photon: impl FnMut(f32, Rgb, Vec3)) {
+        self.visit_leaves(query, |start, end| {
+            for k in start..end {
+                let weight = self.weight(query, k);
+                if weight > 0.0 {
+                    let flux = Rgb::new(self.red[k], self.green[k], self.blue[k]);
+                    photon(weight, flux, super::photon::PackedDirection::from_bits(self.wi[k]).unpack());
+                }
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn visit_leaves(&self, query: &Query, mut leaf: impl FnMut(usize, usize)) {
+        let radius_sq = query.radius * query.radius;
+        let mut index = 0;
+        while let Some(node) = self.nodes.get(index) {
+            let outside = (node.min - query.position).max(query.position - node.max).max(Vec3::ZERO);
+            if outside.length_squared() >= radius_sq {
+                index = node.skip as usize;
+                continue;
+            }
+            if node.count > 0 {
+                leaf(node.start as usize, (node.start + node.count) as usize);
+            }
+            index += 1;
+        }
+    }
+
+    /// Bytes on the heap.
+    pub fn memory_bytes(&self) -> usize {
+        self.nodes.capacity() * size_of::<Node>() + self.len() * 8 * size_of::<f32>()
+    }
+}
+
+/// Photons that one pass of vector instructions handles.
+const LANES: usize = 8;
+
+/// `1 - d^2 / r^2` inside the disc and for the right tag, else 0; without branches.
+#[inline(always)]
+fn kernel_weight(query: &Query, inverse_radius_sq: f32, position: Vec3, tag: u32) -> f32 {
+    let offset = position - query.position;
+    let weight = 1.0 - offset.length_squared() * inverse_radius_sq;
+    let near_plane = offset.dot(query.normal).abs() <= Query::SLAB * query.radius;
+    let right_tag = tag.wrapping_sub(query.tag_start) < query.tag_span;
+    if weight > 0.0 && near_plane && right_tag { weight } else { 0.0 }
+}
+
+/// (Morton code, index) of every photon, sorted by code, stable.
+fn morton_order(photons: &[Photon]) -> Vec<(u32, u32)> {
+    let (min, max) = photons
+        .par_iter()
+        .with_min_len(1 << 14)
+        .fold(|| (Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), p| (min.min(p.position), max.max(p.position)))
+        .reduce(|| (Vec3::INFINITY, Vec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    // The longest axis sets the scale of all, so that cells are cubes; the shortest gets the bit less.
+    let scale = 2047.0 / (max - min).max_element().max(f32::MIN_POSITIVE);
+    let code = |p: Vec3| {
+        let cell = ((p - min) * scale).min(Vec3::splat(2047.0));
+        interleave(cell.x as u32) << 2 | interleave(cell.y as u32) << 1 | interleave(cell.z as u32)
+    };
+    let mut order: Vec<(u32, u32)> = photons
+        .par_iter()
+        .with_min_len(1 << 14)
+        .enumerate()
+        .map(|(i, photon)| ((code(photon.position) >> 1) as u32, i as u32))
+        .collect();
+    radix_sort(&mut order);
+    order
+}
+
+/// Every third bit of the result is a bit of the 11-bit argument.
+fn interleave(x: u32) -> u64 {
+    let x = (x | x << 16) & 0x0700_00ff;
+    let x = (x | x << 8) & 0x0700_f00f;
+    let x = (x | x << 4) & 0x430c_30c3;
+    u64::from((x | x << 2) & 0x4924_9249)
+}
+
+/// Sorts by code, least significant digit first, stable.
+fn radix_sort(items: &mut Vec<(u32, u32)>) {
+    let mut other = vec![(0, 0); items.len()];
+    for shift in [0, DIGIT_BITS, 2 * DIGIT_BITS] {
+        let digit = |code: u32| (code >> shift) as usize & ((1 << DIGIT_BITS) - 1);
+        let mut starts = [0u32; 1 << DIGIT_BITS];
+        for &(code, _) in items.iter() {
+            starts[digit(code)] += 1;
+        }
+        let mut sum = 0;
+        for start in &mut starts {
+            sum += std::mem::replace(start, sum);
+        }
+        for &item in items.iter() {
+            let place = &mut starts[digit(item.0)];
+            other[*place as usize] = item;
+            *place += 1;
+        }
+        std::mem::swap(items, &mut other);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Sampler, Stream};
+    use crate::transport::photon::PackedDirection;
+
+    fn photons(count: u64, place: impl Fn(&mut Sampler) -> Vec3) -> Vec<Photon> {
+        (0..count)
+            .map(|k| {
+                let mut s = Sampler::new(1, Stream::Test, 77, k);
+                let position = place(&mut s);
+                let flux = Rgb::new(1.0, s.next_1d() as f32, 0.5);
+                Photon { position, flux, wi: PackedDirection::pack(Vec3::Z), tag: (k % 3) as u32 }
+            })
+            .collect()
+    }
+
+    fn brute_force(photons: &[Photon], query: &Query) -> Rgb {
+        let inverse = 1.0 / (query.radius * query.radius);
+        photons.iter().map(|p| p.flux * kernel_weight(query, inverse, p.position, p.tag)).sum()
+    }
+
+    #[test]
+    fn sums_what_a_linear_scan_sums() {
+        let unit = |s: &mut Sampler| Vec3::new(s.next_1d() as f32, s.next_1d() as f32, s.next_1d() as f32);
+        let plane = |s: &mut Sampler| Vec3::new(s.next_1d() as f32, 0.25, s.next_1d() as f32);
+        let line = |s: &mut Sampler| Vec3::new(0.0, 1e-3 * s.next_1d() as f32, 0.0);
+        let point = |_: &mut Sampler| Vec3::splat(0.5);
+        let places: [&dyn Fn(&mut Sampler) -> Vec3; 4] = [&unit, &plane, &line, &point];
+        for (place, count) in places.into_iter().flat_map(|p| [0, 1, 7, 16, 17, 4000].map(|n| (p, n))) {
+            let photons = photons(count, place);
+            let map = PhotonMap::build(&photons);
+            assert_eq!(map.len(), photons.len());
+            for k in 0..50 {
+                let mut s = Sampler::new(2, Stream::Test, 5, k);
+                let position = place(&mut s);
+                let radius = 0.3 * s.next_1d() as f32;
+                let query = Query { position, normal: Vec3::Y, radius, tag_start: 1, tag_span: 2 };
+                let (found, expected) = (map.sum_flux(&query), brute_force(&photons, &query));
+                // Sums of up to 4000 terms of size 1 in another order: 4000 roundings of 6e-8 of the sum at most.
+                assert!((found - expected).abs().max_element() <= 3e-4 * (1.0 + expected.max_element()));
+                let mut by_visit = Rgb::ZERO;
+                map.for_each(&query, |weight, flux, _| by_visit += weight * flux);
+                assert!((by_visit - expected).abs().max_element() <= 3e-4 * (1.0 + expected.max_element()));
+            }
+        }
+    }
+}

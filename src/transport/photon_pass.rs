@@ -1,0 +1,168 @@
+//! Photons that carry interreflected light: every path of light that was scattered in many directions at least once
+//! before it arrives.
+
+use super::bsdf;
+use super::counters::Counters;
+use super::emission::{self, Emission};
+use super::medium::Media;
+use super::photon::{PackedDirection, Photon, tag};
+use super::plan::Plan;
+use super::{Cancel, blocks};
+use crate::math::{Frame, Ray, Rgb, Sampler, Stream, warp};
+use crate::world::{Lobe, Scattering, Surface, SurfacePoint, World};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Shading normals change the weight of scattered light; beyond this factor only at grazing angles, where it would
+/// make single photons too bright.
+pub(super) const MAX_SHADING_FACTOR: f64 = 8.0;
+
+/// The photons of one iteration, in the order of their paths; `None` when cancelled.
+pub fn global_photon_pass(
+    world: &World,
+    plan: &Plan,
+    seed: u64,
+    iteration: u64,
+    cancel: Cancel,
+) -> Option<(Vec<Photon>, Counters)> {
+    let blocks: Vec<(Vec<Photon>, Counters)> = blocks::of_photons(&plan.global_paths)
+        .into_par_iter()
+        .map(|block| {
+            let mut walk = Walk { world, photons: Vec::new(), counters: Counters::default() };
+            let count = plan.global_paths[block.light];
+            for k in block.paths.clone() {
+                let index = (iteration - 1) * count + k;
+                let sampler = Sampler::new(seed, plan.stream(Stream::GlobalPhoton), block.light as u64, index);
+                walk.trace_path(block.light, count, sampler);
+            }
+            (!cancel.is_cancelled()).then_some((walk.photons, walk.counters))
+        })
+        .collect::<Option<_>>()?;
+    Some(blocks::concatenate(blocks))
+}
+
+struct Walk<'a> {
+    world: &'a World,
+    photons: Vec<Photon>,
+    counters: Counters,
+}
+
+/// A photon in flight.
+struct Flight {
+    ray: Ray,
+    flux: Rgb,
+    media: Media,
+    /// Scattering events so far.
+    bounces: u32,
+    /// Whether one of them sent light in many directions.
+    was_scattered: bool,
+}
+
+impl Walk<'_> {
+    fn trace_path(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
+        let Emission { origin, direction, flux } = emission::emit(&self.world.lights[light], &mut sampler);
+        self.counters.global_paths += 1;
+        let ray = Ray { t_min: 1e-9 * self.world.radius, ..Ray::new(origin, direction) };
+        let mut flight =
+            Flight { ray, flux: flux / path_count as f32, media: Media::default(), bounces: 0, was_scattered: false };
+        while self.step(&mut flight, &mut sampler).is_some() {}
+    }
+
+    /// To the next surface and off it; `None` where the path ends.
+    fn step(&mut self, flight: &mut Flight, sampler: &mut Sampler) -> Option<()> {
+        self.counters.rays += 1;
+        let hit = self.world.aggregate.closest_hit(&flight.ray)?;
+        let Surface::Object { object, material, .. } = self.world.surfaces[hit.primitive as usize] else { return None };
+        let point = self.world.surface_point(&flight.ray, hit);
+        flight.flux *= flight.media.transmittance(self.world, hit.t);
+        let (scattering, n_shade) = self.world.scattering(&point, material);
+        self.counters.texture_lookups += u64::from(self.world.materials[material as usize].lookups());
+        let wi = -flight.ray.direction;
+        if flight.was_scattered && scattering.albedo != Rgb::ZERO && flight.bounces < self.world.max_bounces {
+            self.photons.push(Photon {
+                position: (point.position - self.world.center).as_vec3(),
+                flux: flight.flux,
+                wi: PackedDirection::pack(wi.as_vec3()),
+                tag: tag(object, point.front, flight.bounces),
+            });
+            self.counters.photons_stored += 1;
+        }
+        if flight.bounces + 1 >= self.world.max_bounces {
+            return None;
+        }
+        let direction = scatter(self.world, flight, &point, &scattering, material, n_shade, sampler)?;
+        flight.bounces += 1;
+        flight.ray = Ray::new(self.world.leave(&point, direction), direction);
+        flight.flux.is_finite().then_some(())
+    }
+}
+
+/// Chooses between the parts of the scattering and absorption by what each would leave of the flux (Russian roulette,
+/// which keeps all photons about equally strong), and returns the new direction.
+fn scatter(
+    world: &World,
+    flight: &mut Flight,
+    point: &SurfacePoint,
+    scattering: &Scattering,
+    material: u32,
+    n_shade: DVec3,
+    sampler: &mut Sampler,
+) -> Option<DVec3> {
+    let n_side = point.n_side();
+    let wi = -flight.ray.direction;
+    let (u, choice): (DVec2, f64) = (sampler.next_2d(), sampler.next_1d());
+    let before = flight.flux.max_element();
+    let kept = |weight: Rgb| f64::from((flight.flux * weight).max_element() / before);
+    let diffuse = kept(scattering.albedo);
+    if choice < diffuse {
+        flight.flux *= scattering.albedo / diffuse as f32;
+        flight.was_scattered = true;
+        let direction = Frame::from_normal(n_shade).world_from_local(warp::cosine_hemisphere(u));
+        let factor = shading_factor(wi, direction, n_side, n_shade);
+        flight.flux *= factor as f32;
+        return (factor > 0.0).then_some(direction);
+    }
+    match scattering.lobe {
+        Lobe::None => None,
+        Lobe::Phong { specular, .. } => {
+            let probability = kept(specular);
+            if choice - diffuse >= probability {
+                return None;
+            }
+            let (direction, weight) = bsdf::sample_glossy(scattering, n_shade, n_side, wi, u)?;
+            flight.flux *= weight / probability as f32;
+            flight.flux *= shading_factor(wi, direction, n_side, n_shade) as f32;
+            flight.was_scattered = true;
+            Some(direction)
+        }
+        Lobe::Mirror { reflectance } => {
+            let probability = kept(reflectance);
+            flight.flux *= reflectance / probability as f32;
+            (choice - diffuse < probability).then(|| bsdf::reflect_above(wi, n_shade, n_side))
+        }
+        Lobe::Glass { tint, .. } => {
+            let entering = point.front;
+            let eta = flight.media.eta(world, material, entering);
+            let fresnel = bsdf::fresnel(wi.dot(n_shade), eta);
+            if choice < fresnel.reflectance {
+                return Some(bsdf::reflect_above(wi, n_shade, n_side));
+            }
+            flight.flux *= tint;
+            flight.media = flight.media.crossed(material, entering);
+            Some(bsdf::refract(wi, n_shade, eta, fresnel.cos_transmitted))
+        }
+    }
+}
+
+/// The correction for shading normals of light that travels from a light: `|cos_i'| |cos_o| / (|cos_i| |cos_o'|)`,
+/// shading cosines primed \[Veach97, 5.3.2\]; 0 where a direction is on different sides of the two normals.
+pub(super) fn shading_factor(wi: DVec3, wo: DVec3, n_side: DVec3, n_shade: DVec3) -> f64 {
+    if n_side == n_shade {
+        return 1.0;
+    }
+    let (i_geom, o_geom, i_shade, o_shade) = (wi.dot(n_side), wo.dot(n_side), wi.dot(n_shade), wo.dot(n_shade));
+    if i_geom <= 0.0 || o_geom <= 0.0 || i_shade <= 0.0 || o_shade <= 0.0 {
+        return 0.0;
+    }
+    (i_shade * o_geom / (i_geom * o_shade)).min(MAX_SHADING_FACTOR)
+}

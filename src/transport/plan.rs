@@ -1,0 +1,253 @@
+//! What a scene needs, decided before rendering, and why the rest is skipped.
+
+use super::guide::Guide;
+use crate::geometry::Primitive;
+use crate::math::Stream;
+use crate::world::{Camera, Light, Lobe, Surface, World};
+use std::sync::Arc;
+
+/// One decision, for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanNote {
+    /// A component of light or of work.
+    pub what: String,
+    /// Whether it is rendered; otherwise it is skipped.
+    pub rendered: bool,
+    /// Why.
+    pub reason: String,
+}
+
+/// What every iteration does for a scene.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The eye and the film's grid, which is coarser for a draft.
+    pub camera: Camera,
+    /// Caustics, where light can meet mirrors or glass.
+    pub caustics: Option<CausticPlan>,
+    /// Paths that look for interreflection in an iteration, by light; empty where there is none.
+    pub global_paths: Vec<u64>,
+    /// Radius of the first density estimate of caustics, pixels' footprints.
+    pub caustic_radius: f64,
+    /// The same for interreflection.
+    pub global_radius: f64,
+    /// The largest radius, parts of the world's radius.
+    pub largest_radius: f64,
+    /// Every decision.
+    pub notes: Vec<PlanNote>,
+    is_draft: bool,
+}
+
+/// How caustics are rendered.
+#[derive(Clone, Debug)]
+pub struct CausticPlan {
+    /// Paths in an iteration, by light.
+    pub paths: Vec<u64>,
+    /// Where each light meets mirrors or glass.
+    pub guides: Arc<Vec<Guide>>,
+    /// Whether the camera may see caustics in mirrors, through glass or in glossy surfaces.
+    pub seen_indirectly: bool,
+    /// The first iterations gather directly seen caustics from the map, which is smoother while photons are few.
+    pub gathered_iterations: u64,
+}
+
+/// Paths for interreflection in an iteration, for each pixel.
+const GLOBAL_PATHS_PER_PIXEL: f64 = 1.0;
+/// Paths for caustics in an iteration, for each pixel.
+const CAUSTIC_PATHS_PER_PIXEL: f64 = 1.0;
+const LEAST_PATHS: f64 = 16_384.0;
+const MOST_PATHS: f64 = 1_048_576.0;
+/// Photons a pixel from which on adding them to the film is better than a density estimate.
+const PHOTONS_PER_PIXEL_TO_SPLAT: f64 = 4.0;
+
+impl Plan {
+    /// The plan for a world.
+    pub fn new(world: &World) -> Self {
+        let mut notes = Notes::default();
+        let lit = notes.lights(world);
+        let caustics = if lit { plan_caustics(world, &mut notes) } else { None };
+        let global_paths = if lit { plan_interreflection(world, &mut notes) } else { Vec::new() };
+        notes.textures(world);
+        Self {
+            camera: world.camera,
+            caustics,
+            global_paths,
+            caustic_radius: 2.0,
+            global_radius: 6.0,
+            largest_radius: 0.05,
+            notes: notes.0,
+            is_draft: false,
+        }
+    }
+
+    /// The plan for a first picture of bounded cost: every `coarseness`-th pixel each way, and fewer photons.
+    pub fn draft(&self, coarseness: u32) -> Self {
+        let size = |pixels: u32| pixels.div_ceil(coarseness.max(1)).max(1);
+        let camera = self.camera.resized(size(self.camera.width), size(self.camera.height));
+        let pixels = camera.pixel_count() as f64;
+        let fewer = |paths: &[u64], total: f64| share(paths.iter().map(|&p| p as f64).collect(), total);
+        let caustics = self.caustics.as_ref().map(|caustics| CausticPlan {
+            paths: fewer(&caustics.paths, pixels.clamp(4096.0, 32_768.0)),
+            gathered_iterations: u64::MAX,
+            ..caustics.clone()
+        });
+        Self {
+            camera,
+            caustics,
+            global_paths: fewer(&self.global_paths, (0.25 * pixels).clamp(1024.0, 8192.0)),
+            global_radius: 10.0,
+            largest_radius: 0.2,
+            is_draft: true,
+            ..self.clone()
+        }
+    }
+
+    /// Whether caustics that the camera sees directly come from the map in this iteration.
+    pub fn gathers_visible_caustics(&self, iteration: u64) -> bool {
+        self.caustics.as_ref().is_some_and(|caustics| iteration <= caustics.gathered_iterations)
+    }
+
+    /// Whether anything is gathered at visible points.
+    pub(super) fn gathers(&self) -> bool {
+        self.caustics.is_some() || !self.global_paths.is_empty()
+    }
+
+    /// Drafts draw their own numbers.
+    pub(super) fn stream(&self, stream: Stream) -> Stream {
+        if self.is_draft { Stream::Draft(stream.number()) } else { stream }
+    }
+}
+
+fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
+    const WHAT: &str = "caustics";
+    if world.max_bounces < 2 {
+        return notes.skip(WHAT, "max_bounces leaves only direct light");
+    }
+    if !(0..world.surfaces.len()).any(|p| world.is_specular(p as u32)) {
+        return notes.skip(WHAT, "no surface mirrors or refracts");
+    }
+    if !shows(world, |world, p| !world.is_specular(p) || world.scattered_bound(p) > 0.0) {
+        return notes.skip(WHAT, "no surface scatters the light that mirrors and glass send");
+    }
+    let guides: Vec<Guide> =
+        world.lights.iter().enumerate().map(|(i, light)| Guide::build(world, light, i as u64)).collect();
+    let weights: Vec<f64> = world.lights.iter().zip(&guides).map(|(l, g)| power(l) * g.covered()).collect();
+    let total = (world.camera.pixel_count() as f64 * CAUSTIC_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
+    let paths = share(weights, total);
+    let covered = guides.iter().map(Guide::covered).fold(0.0, f64::max);
+    notes.render(
+        WHAT,
+        format!("mirrors and glass fill up to {:.1} % of a light's directions; photons aim there", 100.0 * covered),
+    );
+    let seen_indirectly = plan_seen_indirectly(world, notes);
+    let photons_per_pixel = paths.iter().sum::<u64>() as f64 / world.camera.pixel_count() as f64;
+    let gathered_iterations = (PHOTONS_PER_PIXEL_TO_SPLAT / photons_per_pixel).ceil() as u64;
+    Some(CausticPlan { paths, guides: Arc::new(guides), seen_indirectly, gathered_iterations })
+}
+
+fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
+    const WHAT: &str = "caustics in mirrors and glass";
+    let seen = shows(world, |world, p| (world.is_specular(p) || world.is_glossy(p)) && world.may_be_seen(p));
+    if seen {
+        notes.render(WHAT, "a mirror, glass or glossy surface may be in view".to_owned());
+    } else {
+        notes.skip::<()>(WHAT, "nothing in view mirrors or refracts: photons go straight to the film");
+    }
+    seen
+}
+
+fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
+    const WHAT: &str = "interreflection";
+    if world.max_bounces < 2 {
+        notes.skip::<()>(WHAT, "max_bounces leaves only direct light");
+        return Vec::new();
+    }
+    let scattering = (0..world.surfaces.len()).filter(|&p| world.scattered_bound(p as u32) > 0.0).count();
+    if scattering == 0 {
+        notes.skip::<()>(WHAT, "no surface scatters light in many directions");
+        return Vec::new();
+    }
+    if world.surfaces.len() == 1
+        && !matches!(world.aggregate.primitives()[0], Primitive::Sphere(_) | Primitive::Patch(_))
+    {
+        notes.skip::<()>(WHAT, "a single flat surface cannot light itself");
+        return Vec::new();
+    }
+    notes.render(WHAT, format!("{scattering} surfaces scatter light to each other"));
+    let total = (world.camera.pixel_count() as f64 * GLOBAL_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
+    share(world.lights.iter().map(power).collect(), total)
+}
+
+fn power(light: &Light) -> f64 {
+    f64::from(light.power().max_element())
+}
+
+/// Whole numbers in proportion to the weights, at least 1 each where the weight is not 0, about `total` together.
+fn share(weights: Vec<f64>, total: f64) -> Vec<u64> {
+    let sum: f64 = weights.iter().sum();
+    weights.iter().map(|w| if sum > 0.0 { (w / sum * total).ceil() as u64 } else { 0 }).collect()
+}
+
+fn shows(world: &World, is_so: impl Fn(&World, u32) -> bool) -> bool {
+    (0..world.surfaces.len() as u32)
+        .any(|p| matches!(world.surfaces[p as usize], Surface::Object { .. }) && is_so(world, p))
+}
+
+impl World {
+    fn material_of(&self, primitive: u32) -> Option<&crate::world::Material> {
+        match self.surfaces[primitive as usize] {
+            Surface::Object { material, .. } => Some(&self.materials[material as usize]),
+            Surface::Light(_) => None,
+        }
+    }
+
+    fn scattered_bound(&self, primitive: u32) -> f32 {
+        self.material_of(primitive).map_or(0.0, crate::world::Material::scattered_bound)
+    }
+
+    fn is_glossy(&self, primitive: u32) -> bool {
+        let scattering = self.material_of(primitive).map(|m| m.scattering(glam::DVec2::ZERO));
+        scattering.is_some_and(|s| matches!(s.lobe, Lobe::Phong { .. }))
+    }
+
+    /// Whether any part of a primitive may be inside the view pyramid.
+    fn may_be_seen(&self, primitive: u32) -> bool {
+        let bounds = self.aggregate.primitives()[primitive as usize].bounds();
+        bounds.is_empty() || self.camera.may_see(bounds.center(), 0.5 * bounds.diagonal())
+    }
+}
+
+#[derive(Default)]
+struct Notes(Vec<PlanNote>);
+
+impl Notes {
+    fn render(&mut self, what: &str, reason: String) {
+        self.0.push(PlanNote { what: what.to_owned(), rendered: true, reason });
+    }
+
+    fn skip<T>(&mut self, what: &str, reason: &str) -> Option<T> {
+        self.0.push(PlanNote { what: what.to_owned(), rendered: false, reason: reason.to_owned() });
+        None
+    }
+
+    /// Whether there is light to transport.
+    fn lights(&mut self, world: &World) -> bool {
+        if world.lights.is_empty() {
+            self.skip::<()>("direct light and photons", "no light has any power");
+        } else if world.max_bounces == 0 {
+            self.skip::<()>("direct light and photons", "max_bounces is 0: only lights are seen");
+        } else {
+            self.render("direct light", format!("{} light(s), one shadow ray each", world.lights.len()));
+            return true;
+        }
+        false
+    }
+
+    fn textures(&mut self, world: &World) {
+        let textured = world.materials.iter().filter(|m| m.needs_parameters()).count();
+        if textured > 0 {
+            self.render("textures", format!("{textured} material(s) read them"));
+        } else {
+            self.skip::<()>("textures", "no visible material has one: surface parameters are never computed");
+        }
+    }
+}

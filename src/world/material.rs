@@ -1,0 +1,198 @@
+use super::Image;
+use crate::geometry::Tangents;
+use crate::math::{Frame, Rgb};
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
+
+/// A value that may vary over the surface.
+#[derive(Clone, Debug)]
+pub(super) enum Source {
+    Constant(Rgb),
+    Image { image: Arc<Image>, scale: DVec2 },
+}
+
+/// Bumps that tilt the normal.
+#[derive(Clone, Debug)]
+pub(super) enum Relief {
+    Normal { image: Arc<Image>, scale: DVec2, strength: f64 },
+    Height { image: Arc<Image>, scale: DVec2, depth: f64 },
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Model {
+    Diffuse { albedo: Source },
+    Phong { albedo: Source, specular: Source, exponent: f64 },
+    Polished { albedo: Source, reflectance: Source },
+    Mirror { reflectance: Source },
+    Glass { ior: f64, tint: Source, absorption: Rgb },
+}
+
+/// A material with its textures.
+#[derive(Clone, Debug)]
+pub struct Material {
+    pub(super) model: Model,
+    pub(super) relief: Option<Relief>,
+}
+
+/// How one point scatters light: a diffuse part and at most one other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scattering {
+    /// Part reflected by Lambert's law.
+    pub albedo: Rgb,
+    /// The rest.
+    pub lobe: Lobe,
+}
+
+/// What a surface does besides diffuse reflection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lobe {
+    /// Nothing.
+    None,
+    /// A Phong lobe about the mirror direction.
+    Phong {
+        /// Part of the light that it reflects at most.
+        specular: Rgb,
+        /// Its sharpness.
+        exponent: f64,
+    },
+    /// A perfect mirror.
+    Mirror {
+        /// Part of the light that it reflects.
+        reflectance: Rgb,
+    },
+    /// A smooth dielectric interface.
+    Glass {
+        /// Index of refraction of the inside.
+        ior: f64,
+        /// Of what is transmitted.
+        tint: Rgb,
+    },
+}
+
+impl Source {
+    fn sample(&self, uv: DVec2) -> Rgb {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Image { image, scale } => image.sample(uv * *scale),
+        }
+    }
+
+    fn is_image(&self) -> bool {
+        matches!(self, Self::Image { .. })
+    }
+
+    /// An upper bound over the surface; textures count as white.
+    fn bound(&self) -> f32 {
+        match self {
+            Self::Constant(value) => value.max_element(),
+            Self::Image { .. } => 1.0,
+        }
+    }
+}
+
+impl Material {
+    /// The scattering at (u, v).
+    pub fn scattering(&self, uv: DVec2) -> Scattering {
+        let (albedo, lobe) = match &self.model {
+            Model::Diffuse { albedo } => (albedo.sample(uv), Lobe::None),
+            Model::Phong { albedo, specular, exponent } => {
+                (albedo.sample(uv), Lobe::Phong { specular: specular.sample(uv), exponent: *exponent })
+            }
+            Model::Polished { albedo, reflectance } => {
+                (albedo.sample(uv), Lobe::Mirror { reflectance: reflectance.sample(uv) })
+            }
+            Model::Mirror { reflectance } => (Rgb::ZERO, Lobe::Mirror { reflectance: reflectance.sample(uv) }),
+            Model::Glass { ior, tint, .. } => (Rgb::ZERO, Lobe::Glass { ior: *ior, tint: tint.sample(uv) }),
+        };
+        Scattering { albedo: within_energy(albedo, lobe), lobe }
+    }
+
+    /// The unit shading normal on the front side, for a geometric unit normal and the parameters there.
+    pub fn shading_normal(&self, n_geom: DVec3, tangents: &Tangents) -> DVec3 {
+        let tilted = match &self.relief {
+            None => return n_geom,
+            Some(Relief::Normal { image, scale, strength }) => {
+                let texel = 2.0 * image.sample(tangents.uv * *scale).as_dvec3() - 1.0;
+                let local = DVec3::new(texel.x * strength, texel.y * strength, texel.z);
+                Frame::from_derivatives(n_geom, tangents.dpdu, tangents.dpdv).world_from_local(local)
+            }
+            Some(Relief::Height { image, scale, depth }) => {
+                let slope = image.gradient(tangents.uv * *scale) * *scale * *depth;
+                // Blinn's bump mapping: the normal of S + h n, without the change of n itself.
+                let (du, dv) = (tangents.dpdu + slope.x * n_geom, tangents.dpdv + slope.y * n_geom);
+                let normal = du.cross(dv);
+                if normal.dot(n_geom) < 0.0 { -normal } else { normal }
+            }
+        };
+        // A tilt of a right angle or more has no meaning on a surface that moves nothing.
+        tilted.try_normalize().filter(|n| n.dot(n_geom) > 1e-3).unwrap_or(n_geom)
+    }
+
+    /// Texture lookups for one scattering and normal.
+    pub fn lookups(&self) -> u32 {
+        let sources = self.sources().into_iter().flatten().filter(|source| source.is_image()).count();
+        sources as u32 + u32::from(self.relief.is_some())
+    }
+
+    /// Whether anything depends on where on the surface the point is.
+    pub fn needs_parameters(&self) -> bool {
+        self.lookups() > 0
+    }
+
+    /// Whether the normal is tilted by a map.
+    pub fn has_relief(&self) -> bool {
+        self.relief.is_some()
+    }
+
+    /// Whether part of the light goes on in one direction only: mirrors, glass, polish.
+    pub fn is_specular(&self) -> bool {
+        match &self.model {
+            Model::Polished { reflectance, .. } | Model::Mirror { reflectance } => reflectance.bound() > 0.0,
+            Model::Glass { .. } => true,
+            Model::Diffuse { .. } | Model::Phong { .. } => false,
+        }
+    }
+
+    /// An upper bound of what is scattered in many directions, over the surface and the channels.
+    pub fn scattered_bound(&self) -> f32 {
+        match &self.model {
+            Model::Diffuse { albedo } | Model::Polished { albedo, .. } => albedo.bound(),
+            Model::Phong { albedo, specular, .. } => (albedo.bound() + specular.bound()).min(1.0),
+            Model::Mirror { .. } | Model::Glass { .. } => 0.0,
+        }
+    }
+
+    /// Absorption inside, per scene unit, for glass that absorbs.
+    pub fn absorption(&self) -> Option<Rgb> {
+        match &self.model {
+            Model::Glass { absorption, .. } if *absorption != Rgb::ZERO => Some(*absorption),
+            _ => None,
+        }
+    }
+
+    /// Index of refraction of glass, 1 for all else.
+    pub fn ior(&self) -> f64 {
+        if let Model::Glass { ior, .. } = &self.model { *ior } else { 1.0 }
+    }
+
+    fn sources(&self) -> [Option<&Source>; 2] {
+        match &self.model {
+            Model::Diffuse { albedo } => [Some(albedo), None],
+            Model::Phong { albedo, specular, .. } => [Some(albedo), Some(specular)],
+            Model::Polished { albedo, reflectance } => [Some(albedo), Some(reflectance)],
+            Model::Mirror { reflectance } => [Some(reflectance), None],
+            Model::Glass { tint, .. } => [Some(tint), None],
+        }
+    }
+}
+
+/// The albedo, lowered where it would reflect more light than arrives together with the lobe: constants are checked
+/// with the scene, texels are not.
+fn within_energy(albedo: Rgb, lobe: Lobe) -> Rgb {
+    match lobe {
+        Lobe::Phong { specular: other, .. } | Lobe::Mirror { reflectance: other } => {
+            albedo.min((Rgb::ONE - other).max(Rgb::ZERO))
+        }
+        Lobe::None | Lobe::Glass { .. } => albedo,
+    }
+}

@@ -1,0 +1,246 @@
+use super::material::{Model, Relief, Source};
+use super::texture::{self, TextureKey};
+use super::{Camera, Image, Light, Material, SharedEdges, Surface, World};
+use crate::geometry::bezier::{ControlNet, Patch};
+use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
+use crate::math::{Aabb, Rgb};
+use crate::scene::{self, Emitter, Location, MaterialModel, Scene, Shape, TextureUse};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Why a scene can't be rendered.
+#[derive(Debug, Error, PartialEq)]
+pub enum PrepareError {
+    /// A texture's file is missing or damaged.
+    #[error("texture file `{file}`: {reason}")]
+    Texture {
+        /// As the scene names it.
+        file: String,
+        /// What happened.
+        reason: String,
+    },
+    /// A name that nothing has.
+    #[error("{user} refers to {kind} `{name}`, which does not exist")]
+    UnknownName {
+        /// Who refers to it.
+        user: String,
+        /// Texture or material.
+        kind: &'static str,
+        /// The name.
+        name: String,
+    },
+}
+
+/// The world of a scene. Whatever a previous world has in common with it is taken over: a moved control point
+/// rebuilds its own patch's tree and refits the tree above; a material or a light rebuilds neither; an image is read
+/// once.
+pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> Result<World, PrepareError> {
+    let mut textures = Textures { scene, location, previous, decoded: Vec::new() };
+    let materials = scene.materials.iter().map(|m| textures.material(m)).collect::<Result<Vec<_>, _>>()?;
+    let lights: Vec<Light> = scene.lights.iter().map(light).filter(|l| l.power() != Rgb::ZERO).collect();
+    let (descriptions, surfaces) = surfaces(scene, &lights)?;
+    let aggregate = aggregate(descriptions, previous);
+    let points = lights.iter().filter_map(|light| match light {
+        Light::Point { position, .. } => Some(*position),
+        _ => None,
+    });
+    let bounds = aggregate.bounds().union(&Aabb::around(points));
+    let center = if bounds.is_empty() { scene.camera.target } else { bounds.center() };
+    let view_distance = scene.camera.position.distance(scene.camera.target);
+    let radius = if bounds.diagonal() > 0.0 { 0.5 * bounds.diagonal() } else { view_distance.max(1.0) };
+    Ok(World {
+        aggregate,
+        surfaces,
+        materials,
+        lights,
+        camera: Camera::new(&scene.camera, scene.film.width, scene.film.height),
+        background: scene.render.background,
+        max_bounces: scene.render.max_bounces,
+        center,
+        radius,
+        textures: textures.decoded,
+    })
+}
+
+/// A primitive whose tree is not built yet.
+enum Description {
+    Ready(Primitive),
+    Patch(ControlNet),
+}
+
+fn light(light: &scene::Light) -> Light {
+    match light.emitter {
+        Emitter::Point { position, intensity } => Light::Point { position, intensity },
+        Emitter::Sphere { center, radius, radiance } => Light::Sphere { sphere: Sphere { center, radius }, radiance },
+        Emitter::Quad { corner, edge_u, edge_v, radiance } => {
+            Light::Quad { quad: Quad::new(corner, edge_u, edge_v), radiance }
+        }
+    }
+}
+
+fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Surface>), PrepareError> {
+    let mut descriptions = Vec::new();
+    let mut surfaces = Vec::new();
+    for (index, object) in scene.objects.iter().enumerate() {
+        let material = scene.materials.iter().position(|m| m.name == object.material).ok_or_else(|| {
+            let user = format!("object `{}`", object.name);
+            PrepareError::UnknownName { user, kind: "material", name: object.material.clone() }
+        })?;
+        let surface = |shared| Surface::Object { object: index as u32, material: material as u32, shared };
+        if let Shape::Bezier(bezier) = &object.shape {
+            let nets = placed_nets(bezier);
+            surfaces.extend(shared_edges(&nets).into_iter().map(surface));
+            descriptions.extend(nets.into_iter().map(Description::Patch));
+        } else {
+            surfaces.push(surface(SharedEdges::default()));
+            descriptions.push(Description::Ready(simple_primitive(&object.shape)));
+        }
+    }
+    for (index, light) in lights.iter().enumerate() {
+        let primitive = match light {
+            Light::Point { .. } => continue,
+            Light::Sphere { sphere, .. } => Primitive::Sphere(*sphere),
+            Light::Quad { quad, .. } => Primitive::Quad(*quad),
+        };
+        surfaces.push(Surface::Light(index as u32));
+        descriptions.push(Description::Ready(primitive));
+    }
+    Ok((descriptions, surfaces))
+}
+
+fn simple_primitive(shape: &Shape) -> Primitive {
+    match *shape {
+        Shape::Quad { corner, edge_u, edge_v } => Primitive::Quad(Quad::new(corner, edge_u, edge_v)),
+        Shape::Sphere { center, radius } => Primitive::Sphere(Sphere { center, radius }),
+        Shape::Plane { point, normal, u_axis } => Primitive::Plane(Plane::new(point, normal, u_axis)),
+        // Patches are not simple; an empty quad meets no ray.
+        Shape::Bezier(_) => Primitive::Quad(Quad::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO)),
+    }
+}
+
+/// The control nets of an object in world coordinates.
+fn placed_nets(bezier: &scene::Bezier) -> Vec<ControlNet> {
+    let world_from_object = bezier.transform.world_from_object();
+    bezier.patches.iter().map(|net| net.transformed(&world_from_object)).collect()
+}
+
+fn aggregate(descriptions: Vec<Description>, previous: Option<&World>) -> Aggregate {
+    let old = previous.map_or(&[][..], |world| world.aggregate.primitives());
+    let primitives: Vec<Primitive> = descriptions
+        .into_par_iter()
+        .enumerate()
+        .map(|(index, description)| match (description, old.get(index)) {
+            (Description::Ready(primitive), _) => primitive,
+            (Description::Patch(net), Some(Primitive::Patch(patch))) if *patch.net() == net => {
+                Primitive::Patch(patch.clone())
+            }
+            (Description::Patch(net), _) => Primitive::Patch(Arc::new(Patch::new(net))),
+        })
+        .collect();
+    let same_kinds = old.len() == primitives.len()
+        && old.iter().zip(&primitives).all(|(a, b)| std::mem::discriminant(a) == std::mem::discriminant(b));
+    match previous {
+        Some(world) if same_kinds => world.aggregate.refitted(primitives),
+        _ => Aggregate::new(primitives),
+    }
+}
+
+/// For each patch, which of its edges another patch of the same object has too, in either direction.
+fn shared_edges(nets: &[ControlNet]) -> Vec<SharedEdges> {
+    let edges = |net: &ControlNet| {
+        let p = &net.points;
+        [
+            [p[0][0], p[0][1], p[0][2], p[0][3]],
+            [p[3][0], p[3][1], p[3][2], p[3][3]],
+            p.map(|row| row[0]),
+            p.map(|row| row[3]),
+        ]
+    };
+    // An edge as bits that do not depend on its direction, so that equal edges can be counted by sorting.
+    let key = |edge: &[DVec3; 4]| {
+        let bits = |points: [DVec3; 4]| points.map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
+        let [a, b, c, d] = *edge;
+        bits([a, b, c, d]).min(bits([d, c, b, a]))
+    };
+    let mut keys: Vec<_> = nets.iter().flat_map(|net| edges(net).map(|edge| key(&edge))).collect();
+    keys.sort_unstable();
+    let is_shared = |edge: &[DVec3; 4]| {
+        let key = key(edge);
+        let first = keys.partition_point(|k| *k < key);
+        keys.get(first + 1) == Some(&key)
+    };
+    let shared = |net: &ControlNet| {
+        let [u0, u1, v0, v1] = edges(net).map(|edge| is_shared(&edge));
+        SharedEdges { u: [u0, u1], v: [v0, v1] }
+    };
+    nets.iter().map(shared).collect()
+}
+
+/// Images decoded so far, and where others come from.
+struct Textures<'a> {
+    scene: &'a Scene,
+    location: &'a Location,
+    previous: Option<&'a World>,
+    decoded: Vec<(TextureKey, Arc<Image>)>,
+}
+
+impl Textures<'_> {
+    fn material(&mut self, material: &scene::Material) -> Result<Material, PrepareError> {
+        let user = format!("material `{}`", material.name);
+        // What no object shows is never read.
+        if !self.scene.objects.iter().any(|object| object.material == material.name) {
+            return Ok(Material { model: Model::Diffuse { albedo: Source::Constant(Rgb::ZERO) }, relief: None });
+        }
+        let mut source = |color: &scene::Color| match color {
+            scene::Color::Constant(value) => Ok(Source::Constant(*value)),
+            scene::Color::Texture(texture) => {
+                Ok(Source::Image { image: self.image(texture, false, &user)?, scale: texture.scale })
+            }
+        };
+        let model = match &material.model {
+            MaterialModel::Diffuse { albedo } => Model::Diffuse { albedo: source(albedo)? },
+            MaterialModel::Phong { albedo, specular, exponent } => {
+                Model::Phong { albedo: source(albedo)?, specular: source(specular)?, exponent: *exponent }
+            }
+            MaterialModel::Polished { albedo, reflectance } => {
+                Model::Polished { albedo: source(albedo)?, reflectance: source(reflectance)? }
+            }
+            MaterialModel::Mirror { reflectance } => Model::Mirror { reflectance: source(reflectance)? },
+            MaterialModel::Glass { ior, tint, absorption } => {
+                Model::Glass { ior: *ior, tint: source(tint)?, absorption: *absorption }
+            }
+        };
+        let relief = match &material.relief {
+            None => None,
+            Some(scene::Relief::Normal { map, strength }) => {
+                Some(Relief::Normal { image: self.image(map, true, &user)?, scale: map.scale, strength: *strength })
+            }
+            Some(scene::Relief::Height { map, depth }) => {
+                Some(Relief::Height { image: self.image(map, true, &user)?, scale: map.scale, depth: *depth })
+            }
+        };
+        Ok(Material { model, relief })
+    }
+
+    fn image(&mut self, texture: &TextureUse, is_map: bool, user: &str) -> Result<Arc<Image>, PrepareError> {
+        let Some(entry) = self.scene.textures.iter().find(|t| t.name == texture.texture) else {
+            let name = texture.texture.clone();
+            return Err(PrepareError::UnknownName { user: user.to_owned(), kind: "texture", name });
+        };
+        let linear = texture::is_linear(entry.encoding, is_map);
+        let key = TextureKey { location: self.location.clone(), file: entry.file.clone(), linear };
+        let known = self.previous.map_or(&[][..], |world| &world.textures);
+        if let Some((_, image)) = self.decoded.iter().chain(known).find(|(k, _)| *k == key) {
+            let image = image.clone();
+            if !self.decoded.iter().any(|(k, _)| *k == key) {
+                self.decoded.push((key, image.clone()));
+            }
+            return Ok(image);
+        }
+        let image = Arc::new(key.decode()?);
+        self.decoded.push((key, image.clone()));
+        Ok(image)
+    }
+}

@@ -1,0 +1,97 @@
+use super::PrepareError;
+use crate::math::Rgb;
+use crate::scene::{Encoding, Location};
+use glam::DVec2;
+
+/// A decoded texture: linear values, repeated in both directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    width: usize,
+    height: usize,
+    /// Row by row from the top.
+    texels: Vec<Rgb>,
+}
+
+/// What a decoded image depends on.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TextureKey {
+    pub(super) location: Location,
+    pub(super) file: String,
+    pub(super) linear: bool,
+}
+
+impl TextureKey {
+    /// Reads and decodes the file.
+    pub(super) fn decode(&self) -> Result<Image, PrepareError> {
+        let unreadable = |reason: String| PrepareError::Texture { file: self.file.clone(), reason };
+        let bytes = self.location.read(&self.file).map_err(|error| unreadable(error.to_string()))?;
+        let picture = image::load_from_memory(&bytes).map_err(|error| unreadable(error.to_string()))?.into_rgb32f();
+        let (width, height) = (picture.width() as usize, picture.height() as usize);
+        let decode = |c: f32| if self.linear { c } else { linear_from_srgb(c) };
+        let texels = picture.pixels().map(|p| Rgb::from_array(p.0.map(decode))).collect();
+        Ok(Image { width, height, texels })
+    }
+}
+
+/// Encodings as materials need them: maps are linear whatever the scene says.
+pub(super) fn is_linear(encoding: Encoding, is_map: bool) -> bool {
+    is_map || encoding == Encoding::Linear
+}
+
+/// The sRGB transfer function, IEC 61966-2-1.
+fn linear_from_srgb(c: f32) -> f32 {
+    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}
+
+impl Image {
+    /// The value at (u, v), (0, 0) the bottom-left corner, bilinear between texel centres.
+    pub fn sample(&self, uv: DVec2) -> Rgb {
+        let ((x0, x1, fx), (y0, y1, fy)) = self.neighbours(uv);
+        let top = self.texel(x0, y0).lerp(self.texel(x1, y0), fx);
+        let bottom = self.texel(x0, y1).lerp(self.texel(x1, y1), fx);
+        top.lerp(bottom, fy)
+    }
+
+    /// Derivatives of the mean of the channels with respect to u and v, of the bilinear interpolation.
+    pub fn gradient(&self, uv: DVec2) -> DVec2 {
+        let ((x0, x1, fx), (y0, y1, fy)) = self.neighbours(uv);
+        let h = |x, y| f64::from(self.texel(x, y).element_sum()) / 3.0;
+        let (fx, fy) = (f64::from(fx), f64::from(fy));
+        let du = (1.0 - fy) * (h(x1, y0) - h(x0, y0)) + fy * (h(x1, y1) - h(x0, y1));
+        let dv = (1.0 - fx) * (h(x0, y0) - h(x0, y1)) + fx * (h(x1, y0) - h(x1, y1));
+        DVec2::new(du * self.width as f64, dv * self.height as f64)
+    }
+
+    fn texel(&self, x: usize, y: usize) -> Rgb {
+        self.texels[y * self.width + x]
+    }
+
+    /// Columns and rows around (u, v), with the weights of the second ones.
+    fn neighbours(&self, uv: DVec2) -> ((usize, usize, f32), (usize, usize, f32)) {
+        let around = |x: f64, n: usize| {
+            // rem_euclid may round up to n itself.
+            let x = (x * n as f64 - 0.5).rem_euclid(n as f64);
+            let low = (x as usize).min(n - 1);
+            (low, (low + 1) % n, (x - low as f64) as f32)
+        };
+        (around(uv.x, self.width), around(1.0 - uv.y, self.height))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orientation_repeat_and_gradient() {
+        // Rows from the top: the bottom-left texel is 1.
+        let texels = [0.0, 0.0, 1.0, 0.0].map(Rgb::splat).to_vec();
+        let image = Image { width: 2, height: 2, texels };
+        assert_eq!(image.sample(DVec2::new(0.25, 0.25)).x, 1.0);
+        assert_eq!(image.sample(DVec2::new(1.25, -0.75)).x, 1.0, "repeats");
+        assert_eq!(image.sample(DVec2::new(0.5, 0.25)).x, 0.5, "bilinear");
+        let slope = image.gradient(DVec2::new(0.3, 0.3));
+        assert!(slope.distance(DVec2::new(-1.8, -1.8)) < 1e-6, "falls to the right and upwards: {slope}");
+        assert!(image.sample(DVec2::new(-1e-18, f64::MAX)).is_finite());
+    }
+}
