@@ -69,8 +69,8 @@ impl Image {
     /// Columns and rows around (u, v), with the weights of the second ones.
     fn neighbours(&self, uv: DVec2) -> ((usize, usize, f32), (usize, usize, f32)) {
         let around = |x: f64, n: usize| {
-            // rem_euclid may round up to n itself.
-            let x = (x * n as f64 - 0.5).rem_euclid(n as f64);
+            // Repeated first, so that no coordinate is too large; rem_euclid may round up to n itself.
+            let x = (x.rem_euclid(1.0) * n as f64 - 0.5).rem_euclid(n as f64);
             let low = (x as usize).min(n - 1);
             (low, (low + 1) % n, (x - low as f64) as f32)
         };
