@@ -3,10 +3,16 @@
 mod bpt;
 mod cubic;
 mod net;
+mod newton;
 mod normal;
 mod patch;
+mod power;
 mod ray_net;
 mod search;
+mod slab;
+mod traverse;
+mod tree;
+mod unit;
 
 pub use bpt::{BptError, BptProblem, read_bpt, write_bpt};
 pub use net::{ControlNet, Derivatives};

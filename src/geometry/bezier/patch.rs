@@ -1,7 +1,9 @@
 use super::ControlNet;
 use super::normal::unit_normal;
-use super::ray_net::{RayNet, RaySpace};
-use super::search::Search;
+use super::power::PowerForm;
+use super::traverse::{Hit, has_hit, nearest_hit};
+use super::tree::PartTree;
+use super::unit::UnitMap;
 use crate::math::{Aabb, Ray};
 use glam::DVec3;
 
@@ -9,11 +11,16 @@ use glam::DVec3;
 #[derive(Clone, Debug)]
 pub struct Patch {
     net: ControlNet,
-    /// The net relative to `center`, so that a patch far from the origin loses no digits.
-    local: ControlNet,
-    center: DVec3,
-    /// The diagonal of the control points' box.
-    size: f64,
+    unit_map: UnitMap,
+    prepared: Prepared,
+}
+
+/// What rays in unit space need.
+#[derive(Clone, Debug)]
+pub(super) struct Prepared {
+    pub(super) net: ControlNet,
+    pub(super) power: PowerForm,
+    pub(super) tree: PartTree,
 }
 
 /// Where a ray meets a patch.
@@ -31,8 +38,10 @@ impl Patch {
     /// Prepares a patch. Coordinates that are not finite give a patch that no ray meets.
     pub fn new(net: ControlNet) -> Self {
         let bounds = net.bounds();
-        let center = bounds.center();
-        Self { net, local: net.map(|p| p - center), center, size: bounds.diagonal() }
+        let unit_map = UnitMap::new(bounds.center(), bounds.diagonal());
+        let unit_net = net.map(|p| unit_map.point(p));
+        let prepared = Prepared { net: unit_net, power: PowerForm::new(&unit_net), tree: PartTree::new(&unit_net) };
+        Self { net, unit_map, prepared }
     }
 
     /// The control points.
@@ -49,25 +58,24 @@ impl Patch {
 
     /// The nearest hit with `t_min < t < t_max`.
     pub fn intersect(&self, ray: &Ray) -> Option<PatchHit> {
-        let ray = Ray { origin: ray.origin - self.center, ..*ray };
-        let space = RaySpace::new(&ray)?;
-        let net = RayNet::new(&self.local, &space);
-        let root = Search::new(&net, &space, self.size, ray.t_min, ray.t_max).run()?;
-        Some(PatchHit { t: root.t, u: root.u, v: root.v })
+        let ray = self.unit_map.ray(ray)?;
+        let Hit { root, t } = nearest_hit(&self.prepared, ray)?;
+        let parameter = |x: f64| (0.5 * x + 0.5).clamp(0.0, 1.0);
+        Some(PatchHit { t, u: parameter(root.x), v: parameter(root.y) })
     }
 
     /// Whether the ray meets the patch at any `t_min < t < t_max`.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.intersect(ray).is_some()
+        self.unit_map.ray(ray).is_some_and(|ray| has_hit(&self.prepared, ray))
     }
 
     /// The unit geometric normal `dS/du x dS/dv`; its limit on collapsed edges, equal rows and cusps. Never NaN.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
-        unit_normal(&self.local, u, v)
+        unit_normal(&self.prepared.net, u, v)
     }
 
     /// Memory of the patch with everything it owns.
     pub fn memory_bytes(&self) -> usize {
-        size_of::<Self>()
+        size_of::<Self>() + self.prepared.tree.heap_bytes()
     }
 }
