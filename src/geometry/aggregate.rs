@@ -2,6 +2,7 @@ use super::bezier::{Patch, PatchHit};
 use super::{Bvh, Plane, Quad, Sphere};
 use crate::math::{Aabb, Ray};
 use glam::{DVec2, DVec3};
+use multiversion::multiversion;
 use std::sync::Arc;
 
 /// One surface that a ray can meet.
@@ -129,36 +130,53 @@ impl Aggregate {
     }
 
     /// The nearest hit with `t_min < t < t_max`.
+    #[inline]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        let mut ray = *ray;
-        let mut closest = None;
-        let mut test = |primitive: u32, ray: &mut Ray| {
-            if let Some((t, u, v)) = self.primitives[primitive as usize].intersect(ray) {
-                ray.t_max = t;
-                closest = Some(Hit { t, primitive, u, v });
-            }
-            true
-        };
-        for &plane in &self.planes {
-            test(plane, &mut ray);
-        }
-        self.bvh.traverse(&mut ray, test);
-        closest
+        closest_hit(self, ray)
     }
 
     /// Whether anything is hit with `t_min < t < t_max`.
+    #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        if self.planes.iter().any(|&plane| self.primitives[plane as usize].intersect(ray).is_some()) {
-            return true;
-        }
-        let mut found = false;
-        self.bvh.traverse(&mut ray.clone(), |primitive, ray| {
-            found = match &self.primitives[primitive as usize] {
-                Primitive::Patch(patch) => patch.occluded(ray),
-                other => other.intersect(ray).is_some(),
-            };
-            !found
-        });
-        found
+        occluded(self, ray)
     }
+
+    /// Shortens the ray to its hit with one primitive, if there is one.
+    #[inline(always)]
+    fn meet(&self, primitive: u32, ray: &mut Ray, closest: &mut Option<Hit>) {
+        if let Some((t, u, v)) = self.primitives[primitive as usize].intersect(ray) {
+            ray.t_max = t;
+            *closest = Some(Hit { t, primitive, u, v });
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
+    let mut ray = *ray;
+    let mut closest = None;
+    for &plane in &aggregate.planes {
+        aggregate.meet(plane, &mut ray, &mut closest);
+    }
+    aggregate.bvh.traverse(&mut ray, |primitive, ray| {
+        aggregate.meet(primitive, ray, &mut closest);
+        true
+    });
+    closest
+}
+
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn occluded(aggregate: &Aggregate, ray: &Ray) -> bool {
+    if aggregate.planes.iter().any(|&plane| aggregate.primitives[plane as usize].intersect(ray).is_some()) {
+        return true;
+    }
+    let mut found = false;
+    aggregate.bvh.traverse(&mut ray.clone(), |primitive, ray| {
+        found = match &aggregate.primitives[primitive as usize] {
+            Primitive::Patch(patch) => patch.occluded(ray),
+            other => other.intersect(ray).is_some(),
+        };
+        !found
+    });
+    found
 }

@@ -24,6 +24,7 @@ impl Plane {
     }
 
     /// The hit as (t, u, v).
+    #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         let t = self.normal.dot(self.point - ray.origin) / self.normal.dot(ray.direction);
         if !(t > ray.t_min && t < ray.t_max) {

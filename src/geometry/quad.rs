@@ -29,7 +29,7 @@ impl Quad {
     }
 
     /// The nearest hit as (t, u, v).
-    #[inline]
+    #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         let t = self.normal.dot(self.corner - ray.origin) / self.normal.dot(ray.direction);
         // Written so that NaN, from a ray in the plane or an empty quad, is no hit.

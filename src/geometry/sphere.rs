@@ -14,7 +14,7 @@ pub struct Sphere {
 impl Sphere {
     /// The nearest hit's t. The discriminant comes from the part of the origin across the ray, which stays exact for
     /// far and for huge spheres \[Haines19\].
-    #[inline]
+    #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
         let f = ray.origin - self.center;
         let a = ray.direction.length_squared();

@@ -3,7 +3,7 @@
 //! Sorting the photons by Morton code is the whole construction: every node is a range of the sorted array, split
 //! where the highest differing bit of the codes changes. Leaves keep their photons in columns, side by side.
 
-use super::photon::Photon;
+use super::photon::{PackedDirection, Photon};
 use crate::math::Rgb;
 use glam::Vec3;
 use rayon::prelude::*;
@@ -65,12 +65,8 @@ impl PhotonMap {
     /// The map of these photons. Depends on their order only among photons in the same place.
     pub fn build(photons: &[Photon]) -> Self {
         let order = morton_order(photons);
-        let column = |f: fn(&Photon) -> f32| -> Vec<f32> {
-            order.par_iter().with_min_len(1 << 14).map(|&(_, i)| f(&photons[i as usize])).collect()
-        };
-        let bits = |f: fn(&Photon) -> u32| -> Vec<u32> {
-            order.par_iter().with_min_len(1 << 14).map(|&(_, i)| f(&photons[i as usize])).collect()
-        };
+        let column = |f: fn(&Photon) -> f32| in_order(photons, &order, f);
+        let bits = |f: fn(&Photon) -> u32| in_order(photons, &order, f);
         let mut map = Self {
             nodes: Vec::with_capacity(photons.len() / 4),
             x: column(|p| p.position.x),
@@ -120,50 +116,42 @@ impl PhotonMap {
 
     /// The number of photons.
     pub fn len(&self) -> usize {
-        self.x.len()
+        self.x.len().saturating_sub(LANES)
     }
 
     /// Whether there is no photon.
     pub fn is_empty(&self) -> bool {
-        self.x.is_empty()
+        self.len() == 0
     }
 
     /// Sum of flux times the Epanechnikov kernel `1 - d^2 / r^2` over the photons of the disc.
     #[inline(always)]
     pub(super) fn sum_flux(&self, query: &Query) -> Rgb {
         let mut sums = [[0.0f32; LANES]; 3];
-        self.visit_leaves(query, |start, end| {
+        let mut leaves = self.leaves(query);
+        while let Some((start, end)) = leaves.next() {
             let mut first = start;
             while first < end {
-                let lanes = (end - first).min(LANES);
-                self.accumulate(query, first, lanes, &mut sums);
-                first += lanes;
+                self.accumulate(query, first, end, &mut sums);
+                first += LANES;
             }
-        });
+        }
         Rgb::from_array(sums.map(|lanes| lanes.iter().sum()))
     }
 
-    /// Adds up to [`LANES`] photons to as many partial sums.
+    /// Adds up to [`LANES`] photons, those before `end`, to as many partial sums; without branches.
     #[inline(always)]
-    fn accumulate(&self, query: &Query, first: usize, lanes: usize, sums: &mut [[f32; LANES]; 3]) {
-        if lanes < LANES {
-            for k in first..first + lanes {
-                let weight = self.weight(query, k);
-                sums[0][0] += weight * self.red[k];
-                sums[1][0] += weight * self.green[k];
-                sums[2][0] += weight * self.blue[k];
-            }
-            return;
-        }
-        let range = first..first + LANES;
-        let (x, y, z) = (&self.x[range.clone()], &self.y[range.clone()], &self.z[range.clone()]);
-        let tag = &self.tag[range.clone()];
-        let mut weights = [0.0f32; LANES];
+    fn accumulate(&self, query: &Query, first: usize, end: usize, sums: &mut [[f32; LANES]; 3]) {
+        let lanes = first..first + LANES;
+        let (x, y, z) = (&self.x[lanes.clone()], &self.y[lanes.clone()], &self.z[lanes.clone()]);
+        let (tag, left) = (&self.tag[lanes.clone()], (end - first) as u32);
         let inverse = 1.0 / (query.radius * query.radius);
+        let mut weights = [0.0f32; LANES];
         for k in 0..LANES {
-            weights[k] = kernel_weight(query, inverse, Vec3::new(x[k], y[k], z[k]), tag[k]);
+            let weight = kernel_weight(query, inverse, Vec3::new(x[k], y[k], z[k]), tag[k]);
+            weights[k] = if (k as u32) < left { weight } else { 0.0 };
         }
-        let (red, green, blue) = (&self.red[range.clone()], &self.green[range.clone()], &self.blue[range]);
+        let (red, green, blue) = (&self.red[lanes.clone()], &self.green[lanes.clone()], &self.blue[lanes]);
         for k in 0..LANES {
             sums[0][k] += weights[k] * red[k];
             sums[1][k] += weights[k] * green[k];
@@ -171,45 +159,56 @@ impl PhotonMap {
         }
     }
 
-    #[inline(always)]
-    fn weight(&self, query: &Query, k: usize) -> f32 {
-        let position = Vec3::new(self.x[k], self.y[k], self.z[k]);
-        kernel_weight(query, 1.0 / (query.radius * query.radius), position, self.tag[k])
-    }
-
     /// Calls `photon(kernel weight, flux, direction to where the photon came from)` for each photon of the disc.
     pub(super) fn for_each(&self, query: &Query, mut photon: impl FnMut(f32, Rgb, Vec3)) {
-        self.visit_leaves(query, |start, end| {
+        let inverse = 1.0 / (query.radius * query.radius);
+        let mut leaves = self.leaves(query);
+        while let Some((start, end)) = leaves.next() {
             for k in start..end {
-                let weight = self.weight(query, k);
+                let position = Vec3::new(self.x[k], self.y[k], self.z[k]);
+                let weight = kernel_weight(query, inverse, position, self.tag[k]);
                 if weight > 0.0 {
                     let flux = Rgb::new(self.red[k], self.green[k], self.blue[k]);
-                    photon(weight, flux, super::photon::PackedDirection::from_bits(self.wi[k]).unpack());
+                    photon(weight, flux, PackedDirection::from_bits(self.wi[k]).unpack());
                 }
             }
-        });
+        }
     }
 
-    #[inline(always)]
-    fn visit_leaves(&self, query: &Query, mut leaf: impl FnMut(usize, usize)) {
-        let radius_sq = query.radius * query.radius;
-        let mut index = 0;
-        while let Some(node) = self.nodes.get(index) {
-            let outside = (node.min - query.position).max(query.position - node.max).max(Vec3::ZERO);
-            if outside.length_squared() >= radius_sq {
-                index = node.skip as usize;
-                continue;
-            }
-            if node.count > 0 {
-                leaf(node.start as usize, (node.start + node.count) as usize);
-            }
-            index += 1;
-        }
+    fn leaves<'a>(&'a self, query: &Query) -> Leaves<'a> {
+        Leaves { nodes: &self.nodes, index: 0, position: query.position, radius_sq: query.radius * query.radius }
     }
 
     /// Bytes on the heap.
     pub fn memory_bytes(&self) -> usize {
         self.nodes.capacity() * size_of::<Node>() + self.len() * 8 * size_of::<f32>()
+    }
+}
+
+/// Leaves whose box a ball meets.
+struct Leaves<'a> {
+    nodes: &'a [Node],
+    index: usize,
+    position: Vec3,
+    radius_sq: f32,
+}
+
+impl Leaves<'_> {
+    /// The range of photons of the next leaf.
+    #[inline(always)]
+    fn next(&mut self) -> Option<(usize, usize)> {
+        while let Some(node) = self.nodes.get(self.index) {
+            let outside = (node.min - self.position).max(self.position - node.max).max(Vec3::ZERO);
+            if outside.length_squared() >= self.radius_sq {
+                self.index = node.skip as usize;
+                continue;
+            }
+            self.index += 1;
+            if node.count > 0 {
+                return Some((node.start as usize, (node.start + node.count) as usize));
+            }
+        }
+        None
     }
 }
 
@@ -224,6 +223,14 @@ fn kernel_weight(query: &Query, inverse_radius_sq: f32, position: Vec3, tag: u32
     let near_plane = offset.dot(query.normal).abs() <= Query::SLAB * query.radius;
     let right_tag = tag.wrapping_sub(query.tag_start) < query.tag_span;
     if weight > 0.0 && near_plane && right_tag { weight } else { 0.0 }
+}
+
+/// One value of each photon in the order of the map, and zeros that the last vector of instructions may read.
+fn in_order<T: Default + Send>(photons: &[Photon], order: &[(u32, u32)], value: fn(&Photon) -> T) -> Vec<T> {
+    let mut values = Vec::with_capacity(order.len() + LANES);
+    values.extend(order.iter().map(|&(_, i)| value(&photons[i as usize])));
+    values.extend((0..LANES).map(|_| T::default()));
+    values
 }
 
 /// (Morton code, index) of every photon, sorted by code, stable.
@@ -283,7 +290,6 @@ fn radix_sort(items: &mut Vec<(u32, u32)>) {
 mod tests {
     use super::*;
     use crate::math::{Sampler, Stream};
-    use crate::transport::photon::PackedDirection;
 
     fn photons(count: u64, place: impl Fn(&mut Sampler) -> Vec3) -> Vec<Photon> {
         (0..count)
