@@ -1,0 +1,131 @@
+//! Properties of the passes themselves: energy, caustics at known places, independence of threads.
+
+use crate::closed_forms::{scene, session};
+use glam::DVec3;
+use patchlight::engine::{FilmSums, Session};
+use patchlight::scene::Location;
+use patchlight::transport::{Cancel, Photon, Plan, caustic_photon_pass};
+use patchlight::world::{World, prepare};
+
+fn world(text: &str) -> World {
+    prepare(&scene(text).scene, &Location::Unsaved, None).expect("the scene can be prepared")
+}
+
+fn caustic_photons(world: &World, iterations: u64) -> Vec<Photon> {
+    let plan = Plan::new(world);
+    let batch = |i| caustic_photon_pass(world, &plan, 1, i, Cancel::NEVER).expect("never cancelled");
+    (1..=iterations).flat_map(|i| batch(i).photons).collect()
+}
+
+/// C5: what enters a glass ball comes out of it: all light that is aimed at the ball arrives on the walls around it.
+#[test]
+fn a_glass_ball_keeps_no_light() {
+    let text = "[camera]\nposition = [0, 0, 3.5]\ntarget = [0, 0, 0]\nfov_y = 40\n[[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5
+        [[material]]\nname = \"wall\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
+        [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 1\nmaterial = \"glass\"
+        [[object]]\nname = \"room\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 4\nmaterial = \"wall\"
+        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = [1, 2, 3]\n";
+    let iterations = 4;
+    let total: DVec3 = caustic_photons(&world(text), iterations).iter().map(|p| p.flux.as_dvec3()).sum();
+    // The ball fills 2 pi (1 - sqrt(1 - 1/4)) steradians.
+    let expected = std::f64::consts::TAU * (1.0 - 0.75f64.sqrt());
+    for (found, intensity) in total.to_array().into_iter().zip([1.0, 2.0, 3.0]) {
+        let ratio = found / iterations as f64 / (expected * intensity);
+        // Paths that were reflected 16 times inside are cut; Sobol points cover the rim of the ball to about 0.1 %.
+        assert!((ratio - 1.0).abs() < 3e-3, "{ratio} of the light came out");
+    }
+}
+
+/// C9: a light on the rim of a cylindrical mirror of radius R makes a cardioid whose cusp lies R / 3 beyond the centre.
+#[test]
+fn cardioid_cusp() {
+    // Eight quadratic arcs of 22.5 degrees, raised to cubics: on the circle within 1e-5.
+    let arc = |k: i32| -> Vec<Vec<[f64; 3]>> {
+        let half = std::f64::consts::PI / 16.0;
+        let middle = f64::from(2 * k + 1) * half + std::f64::consts::FRAC_PI_2;
+        let on = |angle: f64, radius: f64| [radius * angle.cos(), radius * angle.sin()];
+        let (a, c, control) = (on(middle - half, 1.0), on(middle + half, 1.0), on(middle, 1.0 / half.cos()));
+        let third = |p: [f64; 2], t: f64| [p[0] + t * (control[0] - p[0]), p[1] + t * (control[1] - p[1])];
+        let h = 4.0 / 3.0 * (half / 2.0).tan() / half.tan();
+        [a, third(a, h), third(c, h), c]
+            .map(|[x, z]| (0..4).map(|j| [x, f64::from(j) / 3.0 * 0.5, -z]).collect())
+            .to_vec()
+    };
+    let patches: Vec<_> = (-4..4).map(arc).collect();
+    let text = format!(
+        "[camera]\nposition = [0, 3, 3]\ntarget = [0, 0, 0]\nfov_y = 40
+        [[material]]\nname = \"mirror\"\ntype = \"mirror\"\nreflectance = [1, 1, 1]
+        [[material]]\nname = \"paper\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
+        [[object]]\nname = \"wall\"\ntype = \"bezier\"\nmaterial = \"mirror\"\npatches = {patches:?}
+        [[object]]\nname = \"paper\"\ntype = \"quad\"\nmaterial = \"paper\"\ncorner = [-1, 0, 1]\nedge_u = [2,0,0]\nedge_v = [0,0,-2]
+        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 0.4, 1]\nintensity = [1, 1, 1]\n"
+    );
+    let world = world(&text);
+    let mut along_axis = [0.0f64; 200];
+    for photon in caustic_photons(&world, 4) {
+        let p = photon.position.as_dvec3() + world.center;
+        let from_light = DVec3::new(p.x, 0.0, p.z).z;
+        if p.x.abs() < 0.01 && from_light.abs() < 1.0 {
+            along_axis[((1.0 - from_light) * 100.0) as usize] += f64::from(photon.flux.x);
+        }
+    }
+    let brightest = (0..200).max_by(|&a, &b| along_axis[a].total_cmp(&along_axis[b])).expect("200 bins");
+    let beyond_center = (brightest as f64 + 0.5) / 100.0 - 1.0;
+    // A bin is 0.01 wide; the density peaks within a bin or two of the cusp, on its lit side.
+    assert!((beyond_center - 1.0 / 3.0).abs() < 0.025, "the cusp is at {beyond_center}");
+}
+
+const MIXED: &str = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 40\nheight = 30
+    [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5\ntint = [0.9, 1, 0.9]
+    [[material]]\nname = \"wall\"\ntype = \"polished\"\nalbedo = [0.5, 0.4, 0.3]\nreflectance = [0.2, 0.2, 0.2]
+    [[material]]\nname = \"shiny\"\ntype = \"phong\"\nalbedo = [0.5, 0.4, 0.3]\nspecular = [0.3, 0.3, 0.3]\nexponent = 30
+    [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 0.5\nmaterial = \"glass\"
+    [[object]]\nname = \"back\"\ntype = \"quad\"\ncorner = [-2,-1,-1]\nedge_u = [4,0,0]\nedge_v = [0,3,0]\nmaterial = \"wall\"
+    [[object]]\nname = \"floor\"\ntype = \"plane\"\npoint = [0,-1,0]\nnormal = [0,1,0]\nmaterial = \"shiny\"
+    [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [1, 1.5, 1]\nintensity = [2, 2, 2]
+    [[light]]\nname = \"disc\"\ntype = \"sphere\"\ncenter = [-1, 1.5, 1]\nradius = 0.2\nradiance = [5, 5, 5]\n";
+
+#[test]
+fn one_thread_and_many_give_the_same_bits() {
+    let with_threads = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| session(MIXED, 3).film().image())
+    };
+    assert_eq!(with_threads(1), with_threads(3));
+}
+
+#[test]
+fn a_cancelled_iteration_leaves_nothing() {
+    let mut session = session(MIXED, 2);
+    let before: FilmSums = session.film().clone();
+    assert!(session.advance(Cancel::when(&|| true)).is_none(), "the iteration was cancelled");
+    assert_eq!(*session.film(), before);
+    session.advance(Cancel::NEVER).expect("never cancelled");
+    assert_eq!(session.film().image(), self::session(MIXED, 3).film().image(), "and the next one is the same as ever");
+}
+
+#[test]
+fn a_draft_changes_nothing_and_resembles_the_picture() {
+    let session = session(MIXED, 32);
+    let before = session.film().clone();
+    let draft = session.draft(7, 2);
+    assert_eq!(*session.film(), before);
+    assert!(draft.draft && draft.generation == 7 && draft.iteration == 0);
+    assert_eq!((draft.image.width, draft.image.height), (20, 15));
+    let mean = |image: &patchlight::film::LinearImage| {
+        image.pixels.iter().map(|p| f64::from(p.element_sum())).sum::<f64>() / image.pixels.len() as f64
+    };
+    let ratio = mean(&draft.image) / mean(&session.film().image());
+    // 300 pixels with one sample each, edges and noise included.
+    assert!((ratio - 1.0).abs() < 0.2, "{ratio}");
+}
+
+/// Prepared data that an edit does not touch is taken over, and the picture is the same as if it were not.
+#[test]
+fn edits_reuse_what_they_do_not_touch() {
+    let edited = MIXED.replace("radius = 0.5", "radius = 0.4");
+    let first = session(MIXED, 1);
+    let mut second = Session::prepare(&scene(&edited), 1, Some(&first)).expect("the scene can be prepared");
+    second.advance(Cancel::NEVER).expect("never cancelled");
+    assert_eq!(second.film().image(), session(&edited, 1).film().image());
+}
