@@ -1,4 +1,5 @@
 //! patchlight shows what light does with a curved surface.
+pub mod cli;
 pub mod engine;
 pub mod file;
 pub mod film;

@@ -1,4 +1,5 @@
-//! What the program does, seen from outside.
+//! What the program does, seen from outside; one binary, so that it is linked once.
 
+mod cli;
 mod closed_forms;
 mod passes;

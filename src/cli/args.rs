@@ -1,0 +1,130 @@
+use clap::{Args, Parser, Subcommand};
+use std::{num::NonZeroUsize, path::PathBuf};
+
+/// See what light does with a curved surface.
+///
+/// Without a command it opens a window. SCENE is a file, or the name of a built-in scene: report, report-flipped,
+/// water, cardioid, lens, teapot, cornell.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    /// The scene to show [default: the built-in scene report]
+    pub(super) scene: Option<PathBuf>,
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Render a picture without a window
+    Render(RenderArguments),
+    /// Measure the error against a reference picture over time
+    Bench(BenchArguments),
+    /// Check a scene; print what would be rendered, what is skipped and why
+    Check(CheckArguments),
+}
+
+/// How the rendering is done.
+#[derive(Debug, Args)]
+pub(super) struct RenderSettings {
+    /// Pixels of the picture, instead of what the scene says
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<(u32, u32)>,
+    /// Threads that render [default: one for each core]
+    #[arg(long, value_name = "N")]
+    pub(super) threads: Option<NonZeroUsize>,
+    /// Another number gives another noise
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    pub(super) seed: u64,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RenderArguments {
+    /// A scene file or the name of a built-in scene
+    pub(super) scene: PathBuf,
+    /// Where the picture goes: .png as shown on a screen, .exr in linear 32-bit floats
+    #[arg(short, long, value_name = "OUT.(png|exr)")]
+    pub(super) output: PathBuf,
+    #[command(flatten)]
+    pub(super) budget: Budget,
+    #[command(flatten)]
+    pub(super) settings: RenderSettings,
+    /// Write numbers about the rendering to this JSON file
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) stats: Option<PathBuf>,
+}
+
+/// When rendering ends; after ten seconds unless one of them says otherwise.
+#[derive(Clone, Copy, Debug, Args)]
+#[group(multiple = false)]
+pub(super) struct Budget {
+    /// Render this long, from the first iteration on [default: 10]
+    #[arg(long, value_name = "S", value_parser = parse_positive)]
+    pub(super) seconds: Option<f64>,
+    /// Render this many iterations
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) iterations: Option<u64>,
+    /// Render until the estimated error, relative to the mean radiance, is below this: 0.02 is 2 %
+    #[arg(long, value_name = "E", value_parser = parse_positive)]
+    pub(super) error: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BenchArguments {
+    /// A scene file or the name of a built-in scene
+    pub(super) scene: PathBuf,
+    /// The true picture
+    #[arg(long, value_name = "REF.exr")]
+    pub(super) reference: PathBuf,
+    /// Count only pixels that are bright in this picture
+    #[arg(long, value_name = "MASK.png")]
+    pub(super) mask: Option<PathBuf>,
+    /// When to measure
+    #[arg(long, value_name = "S,S,..", value_delimiter = ',', default_value = "1,2,4,8,16", value_parser = parse_positive)]
+    pub(super) seconds: Vec<f64>,
+    /// Measure this often, each time with another noise
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) seeds: u64,
+    /// Threads that render [default: one for each core]
+    #[arg(long, value_name = "N")]
+    pub(super) threads: Option<NonZeroUsize>,
+    /// Write the table to this file
+    #[arg(long, value_name = "OUT.csv")]
+    pub(super) csv: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArguments {
+    /// A scene file or the name of a built-in scene
+    pub(super) scene: PathBuf,
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let side = |s: &str| s.parse().ok().filter(|pixels| (1..=16384).contains(pixels));
+    let size = text.split_once(['x', 'X']).and_then(|(width, height)| Some((side(width)?, side(height)?)));
+    size.ok_or_else(|| "expected two numbers from 1 to 16384 like 640x480".to_owned())
+}
+
+fn parse_positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0);
+    number.ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_are_two_numbers() {
+        assert_eq!(parse_size("640x480"), Ok((640, 480)));
+        for wrong in ["640", "640x", "0x480", "640x480x2", "20000x10", "-1x5"] {
+            assert!(parse_size(wrong).is_err(), "{wrong}");
+        }
+    }
+}

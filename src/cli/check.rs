@@ -1,0 +1,37 @@
+use super::{CliError, args::CheckArguments, render::pool, scene_argument};
+use crate::{
+    engine::{PlanSummary, Session},
+    scene::{Scene, SceneFile, Shape},
+};
+use std::io::{Write, stdout};
+
+/// `patchlight check`.
+pub(super) fn check(arguments: &CheckArguments) -> Result<(), CliError> {
+    let file = scene_argument::open(&arguments.scene)?;
+    let session = pool(None)?.install(|| Session::prepare(&file, 0, None))?;
+    stdout().lock().write_all(text(&file, session.plan()).as_bytes())?;
+    Ok(())
+}
+
+fn text(file: &SceneFile, plan: &PlanSummary) -> String {
+    let mut text = format!("{}: valid; {}\n", file.location.label(), contents(&file.scene));
+    for note in &plan.notes {
+        let verdict = if note.rendered { "rendered" } else { "skipped " };
+        text += &format!("{verdict}  {}: {}\n", note.what, note.reason);
+    }
+    text
+}
+
+fn contents(scene: &Scene) -> String {
+    let patches = scene.objects.iter().map(|o| if let Shape::Bezier(b) = &o.shape { b.patches.len() } else { 0 });
+    let counts = [
+        (scene.objects.len(), "object"),
+        (patches.sum(), "Bezier patch"),
+        (scene.lights.len(), "light"),
+        (scene.materials.len(), "material"),
+        (scene.textures.len(), "texture"),
+    ];
+    let plural = |word: &str| if word.ends_with("ch") { format!("{word}es") } else { format!("{word}s") };
+    let named = counts.map(|(n, word)| if n == 1 { format!("1 {word}") } else { format!("{n} {}", plural(word)) });
+    named.join(", ")
+}

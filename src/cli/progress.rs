@@ -1,0 +1,47 @@
+use super::args::Budget;
+use crate::engine::Stats;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Steps of a bar that shows a part.
+const STEPS: u64 = 1000;
+
+/// How far the rendering is, on a terminal; elsewhere nothing.
+pub(super) struct Progress {
+    bar: ProgressBar,
+    budget: Budget,
+}
+
+impl Progress {
+    pub(super) fn new(budget: Budget) -> Self {
+        let bar = ProgressBar::new(STEPS);
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {msg}") {
+            bar.set_style(style);
+        }
+        Self { bar, budget }
+    }
+
+    /// Shows the rendering after an iteration.
+    pub(super) fn show(&self, stats: &Stats) {
+        let part = part_done(&self.budget, stats).clamp(0.0, 1.0);
+        self.bar.set_position((STEPS as f64 * part) as u64);
+        let error = stats.error_estimate.map_or(String::new(), |e| format!(", error about {:.1} %", 100.0 * e));
+        self.bar.set_message(format!("{} iterations, {:.0} s{error}", stats.iterations, stats.seconds));
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// How much of the budget is spent, about.
+fn part_done(budget: &Budget, stats: &Stats) -> f64 {
+    match (budget.iterations, budget.error, stats.error_estimate) {
+        (Some(limit), _, _) => stats.iterations as f64 / limit as f64,
+        // Errors fall about like the square root of time.
+        (_, Some(limit), Some(estimate)) => (limit / estimate).powi(2),
+        (_, Some(_), None) => 0.0,
+        _ => stats.seconds / budget.seconds.unwrap_or(super::render::DEFAULT_SECONDS),
+    }
+}

@@ -1,0 +1,147 @@
+use super::{
+    CliError,
+    args::{Budget, RenderArguments, RenderSettings},
+    progress::Progress,
+    scene_argument,
+    statistics::Statistics,
+};
+use crate::{
+    engine::{Frame, Session, SessionError},
+    file::{folder, write_whole},
+    film::{ToneMap, write_exr, write_png},
+    scene::SceneFile,
+    transport::Cancel,
+};
+use cpu_time::ProcessTime;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::{
+    io::{Write, stderr},
+    num::NonZeroUsize,
+    path::Path,
+};
+
+/// How long to render when nobody says.
+pub(super) const DEFAULT_SECONDS: f64 = 10.0;
+
+/// `patchlight render`.
+pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
+    let format = Format::of(&arguments.output)?;
+    needs_folder(&arguments.output)?;
+    arguments.stats.as_deref().map_or(Ok(()), needs_folder)?;
+    let file = sized(scene_argument::open(&arguments.scene)?, &arguments.settings);
+    let pool = pool(arguments.settings.threads)?;
+    let (frame, cpu_seconds) = pool.install(|| render_frame(&file, arguments))?;
+    format.write(&arguments.output, &frame, &file)?;
+    if let Some(path) = &arguments.stats {
+        let statistics = Statistics::new(&frame, cpu_seconds, pool.current_num_threads());
+        write_whole(path, statistics.json()?.as_bytes())
+            .map_err(|e| CliError::Failed(format!("{}: cannot be written: {e}", path.display())))?;
+    }
+    report(&frame, &arguments.output)
+}
+
+fn render_frame(file: &SceneFile, arguments: &RenderArguments) -> Result<(Frame, f64), CliError> {
+    let mut session = Session::prepare(file, arguments.settings.seed, None)?;
+    let progress = Progress::new(arguments.budget);
+    let start = ProcessTime::now();
+    while session.advance(Cancel::NEVER).is_some() && !is_spent(&arguments.budget, &session) {
+        progress.show(&session.stats());
+    }
+    let cpu_seconds = start.elapsed().as_secs_f64();
+    Ok((session.frame(0), cpu_seconds))
+}
+
+/// Whether the rendering is over. Time is up when the next iteration would probably end too late.
+fn is_spent(budget: &Budget, session: &Session) -> bool {
+    let iterations = session.iterations();
+    if let Some(limit) = budget.iterations {
+        return iterations >= limit;
+    }
+    if let Some(limit) = budget.error {
+        // A black picture never has an estimate, and no error either.
+        return iterations >= 2 && session.stats().error_estimate.is_none_or(|estimate| estimate <= limit);
+    }
+    is_last_before(budget.seconds.unwrap_or(DEFAULT_SECONDS), session)
+}
+
+/// Whether one more iteration would probably end after this many seconds.
+pub(super) fn is_last_before(seconds: f64, session: &Session) -> bool {
+    session.seconds() * (1.0 + 1.0 / session.iterations() as f64) > seconds
+}
+
+/// What the name of the output asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Png,
+    Exr,
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Self, CliError> {
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
+        match extension.as_str() {
+            "png" => Ok(Self::Png),
+            "exr" => Ok(Self::Exr),
+            _ => Err(CliError::Usage(format!("{}: expected a name that ends in .png or .exr", path.display()))),
+        }
+    }
+
+    fn write(self, path: &Path, frame: &Frame, file: &SceneFile) -> Result<(), CliError> {
+        let film = &file.scene.film;
+        match self {
+            Self::Png => write_png(path, &frame.image, &ToneMap::new(film.exposure, film.tone_curve))?,
+            Self::Exr => write_exr(path, &frame.image)?,
+        }
+        Ok(())
+    }
+}
+
+/// Tells before the rendering rather than after it that its result cannot be written.
+pub(super) fn needs_folder(path: &Path) -> Result<(), CliError> {
+    let folder = folder(path);
+    let there = folder.is_dir();
+    if there {
+        Ok(())
+    } else {
+        Err(CliError::Usage(format!("{}: there is no folder {}", path.display(), folder.display())))
+    }
+}
+
+fn sized(mut file: SceneFile, settings: &RenderSettings) -> SceneFile {
+    if let Some((width, height)) = settings.size {
+        file.scene.film.width = width;
+        file.scene.film.height = height;
+    }
+    file
+}
+
+/// The threads that render: this many, or one for each core.
+pub(super) fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, CliError> {
+    let count = threads.map_or(0, NonZeroUsize::get);
+    let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|k| format!("render {k}")).build();
+    pool.map_err(|e| CliError::from(SessionError::from(e)))
+}
+
+fn report(frame: &Frame, output: &Path) -> Result<(), CliError> {
+    let stats = &frame.stats;
+    let mut err = stderr().lock();
+    writeln!(err, "{}: {} iterations in {:.1} s", output.display(), stats.iterations, stats.seconds)?;
+    if stats.dropped_samples > 0 {
+        writeln!(err, "left out {} samples that were not finite", stats.dropped_samples)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_name_says_the_format() {
+        assert_eq!(Format::of(Path::new("a/b.PNG")).unwrap(), Format::Png);
+        assert_eq!(Format::of(Path::new("b.exr")).unwrap(), Format::Exr);
+        for wrong in ["b", "b.jpg", ".png", "b.png.txt"] {
+            assert!(Format::of(Path::new(wrong)).is_err(), "{wrong}");
+        }
+    }
+}

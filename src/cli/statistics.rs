@@ -1,0 +1,71 @@
+use super::CliError;
+use crate::engine::Frame;
+use serde::Serialize;
+
+/// Numbers about a rendering, as `--stats` writes them.
+#[derive(Serialize)]
+pub(super) struct Statistics<'a> {
+    iterations: u64,
+    photons_emitted: u64,
+    rays: u64,
+    seconds: f64,
+    cpu_seconds: f64,
+    error_estimate: Option<f64>,
+    dropped_samples: u64,
+    width: u32,
+    height: u32,
+    threads: usize,
+    pass_seconds: PassSeconds,
+    plan: Vec<Note<'a>>,
+}
+
+#[derive(Serialize)]
+struct PassSeconds {
+    prepare: f64,
+    camera: f64,
+    photons: f64,
+    map: f64,
+    gather: f64,
+    commit: f64,
+}
+
+#[derive(Serialize)]
+struct Note<'a> {
+    what: &'a str,
+    rendered: bool,
+    reason: &'a str,
+}
+
+impl<'a> Statistics<'a> {
+    pub(super) fn new(frame: &'a Frame, cpu_seconds: f64, threads: usize) -> Self {
+        let stats = &frame.stats;
+        let passes = &stats.passes;
+        let note = |n: &'a crate::engine::PlanNote| Note { what: &n.what, rendered: n.rendered, reason: &n.reason };
+        Self {
+            iterations: stats.iterations,
+            photons_emitted: stats.photons_emitted,
+            rays: stats.rays,
+            seconds: stats.seconds,
+            cpu_seconds,
+            error_estimate: stats.error_estimate,
+            dropped_samples: stats.dropped_samples,
+            width: frame.image.width,
+            height: frame.image.height,
+            threads,
+            pass_seconds: PassSeconds {
+                prepare: passes.prepare,
+                camera: passes.camera,
+                photons: passes.photons,
+                map: passes.map,
+                gather: passes.gather,
+                commit: passes.commit,
+            },
+            plan: frame.plan.notes.iter().map(note).collect(),
+        }
+    }
+
+    pub(super) fn json(&self) -> Result<String, CliError> {
+        let json = serde_json::to_string_pretty(self);
+        json.map(|text| text + "\n").map_err(|e| CliError::Failed(format!("no statistics: {e}")))
+    }
+}
