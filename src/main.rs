@@ -9,7 +9,7 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // Where not even messages can be written, the exit code must do.
-            writeln!(std::io::stderr(), "patchlight: {error}").ok();
+            writeln!(std::io::stderr(), "{error}").ok();
             ExitCode::from(error.exit_code())
         }
     }

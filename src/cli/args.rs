@@ -59,13 +59,13 @@ pub(super) struct RenderArguments {
 #[group(multiple = false)]
 pub(super) struct Budget {
     /// Render this long, from the first iteration on [default: 10]
-    #[arg(long, value_name = "S", value_parser = parse_positive)]
+    #[arg(long, value_name = "S", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) seconds: Option<f64>,
     /// Render this many iterations
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) iterations: Option<u64>,
     /// Render until the estimated error, relative to the mean radiance, is below this: 0.02 is 2 %
-    #[arg(long, value_name = "E", value_parser = parse_positive)]
+    #[arg(long, value_name = "E", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) error: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ pub(super) struct BenchArguments {
     #[arg(long, value_name = "MASK.png")]
     pub(super) mask: Option<PathBuf>,
     /// When to measure
-    #[arg(long, value_name = "S,S,..", value_delimiter = ',', default_value = "1,2,4,8,16", value_parser = parse_positive)]
+    #[arg(long, value_name = "S,S,..", value_delimiter = ',', default_value = "1,2,4,8,16", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) seconds: Vec<f64>,
     /// Measure this often, each time with another noise
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]

@@ -170,7 +170,7 @@ fn scene_mistakes_are_located() {
     fs::write(dir.path().join("bad.toml"), SCENE.replace("radius = 1", "raduis = 1")).unwrap();
     for command in [&["check", "bad.toml"][..], &["render", "bad.toml", "-o", "a.png"], &["bad.toml"]] {
         let output = patchlight(dir.path(), command);
-        fails(&output, 2, &["bad.toml:25:1: object[0].raduis: unknown key", "did you mean \"radius\"?"]);
+        fails(&output, 2, &["bad.toml:24:1: object[0].raduis: unknown key", "did you mean \"radius\"?"]);
     }
     assert_eq!(names(dir.path()), ["bad.toml", "ball.toml"], "nothing was written");
 }
