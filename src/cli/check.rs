@@ -1,4 +1,4 @@
-use super::{CliError, args::CheckArguments, render::pool, scene_argument};
+use super::{CliError, args::CheckArguments, render::pool};
 use crate::{
     engine::{PlanSummary, Session},
     scene::{Scene, SceneFile, Shape},
@@ -7,7 +7,7 @@ use std::io::{Write, stdout};
 
 /// `patchlight check`.
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), CliError> {
-    let file = scene_argument::open(&arguments.scene)?;
+    let file = SceneFile::find(&arguments.scene)?;
     let session = pool(None)?.install(|| Session::prepare(&file, 0, None))?;
     stdout().lock().write_all(text(&file, session.plan()).as_bytes())?;
     Ok(())

@@ -6,7 +6,6 @@ mod check;
 mod error;
 mod progress;
 mod render;
-mod scene_argument;
 mod statistics;
 mod window;
 

@@ -2,7 +2,6 @@ use super::{
     CliError,
     args::{Budget, RenderArguments, RenderSettings},
     progress::Progress,
-    scene_argument,
     statistics::Statistics,
 };
 use crate::{
@@ -28,7 +27,7 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
     let format = Format::of(&arguments.output)?;
     needs_folder(&arguments.output)?;
     arguments.stats.as_deref().map_or(Ok(()), needs_folder)?;
-    let file = sized(scene_argument::open(&arguments.scene)?, &arguments.settings);
+    let file = sized(SceneFile::find(&arguments.scene)?, &arguments.settings);
     let pool = pool(arguments.settings.threads)?;
     let (frame, cpu_seconds) = pool.install(|| render_frame(&file, arguments))?;
     format.write(&arguments.output, &frame, &file)?;

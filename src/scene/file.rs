@@ -26,6 +26,14 @@ impl SceneFile {
         Self::parse(&text, location)
     }
 
+    /// The scene that people name: a file, or the built-in scene of this name where there is no such file.
+    pub fn find(name: &Path) -> Result<Self, SceneError> {
+        match built_in_scenes().iter().find(|scene| Path::new(scene.name) == name) {
+            Some(scene) if !name.exists() => Self::built_in(scene.name),
+            _ => Self::open(name),
+        }
+    }
+
     /// The built-in scene of this name.
     pub fn built_in(name: &str) -> Result<Self, SceneError> {
         let names = built_in_scenes().iter().map(|scene| scene.name);

@@ -7,7 +7,6 @@ use super::{
     CliError,
     args::BenchArguments,
     render::{is_last_before, needs_folder, pool},
-    scene_argument,
 };
 use crate::{
     engine::Session,
@@ -22,7 +21,7 @@ use std::io::{Write, stdout};
 /// `patchlight bench`.
 pub(super) fn bench(arguments: &BenchArguments) -> Result<(), CliError> {
     arguments.csv.as_deref().map_or(Ok(()), needs_folder)?;
-    let mut file = scene_argument::open(&arguments.scene)?;
+    let mut file = SceneFile::find(&arguments.scene)?;
     let reference = read_exr(&arguments.reference)?;
     let mask = arguments.mask.as_deref().map(Mask::read).transpose()?;
     file.scene.film.width = reference.width;
