@@ -3,7 +3,7 @@ use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
 use super::iteration::render_iteration;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Counters, Plan, shrink};
+use crate::transport::{Cancel, Counters, Plan};
 use crate::world::{PrepareError, World, prepare};
 use std::sync::Arc;
 use std::time::Instant;
@@ -57,7 +57,7 @@ impl Session {
         let iteration = render_iteration(&self.world, &self.plan, self.seed, number, cancel);
         if let Some(iteration) = &iteration {
             let commit = Instant::now();
-            self.film.commit(number, &iteration.radiance);
+            self.film.commit(number, self.plan.weight(number), &iteration.radiance);
             self.passes += iteration.seconds;
             self.passes.commit += commit.elapsed().as_secs_f64();
             self.counters += iteration.counters;
@@ -106,7 +106,7 @@ impl Session {
         let pixels = if self.plan.caustics.is_some() { self.plan.caustic_radius } else { self.plan.global_radius };
         Stats {
             iterations: self.film.iterations(),
-            radius: pixels * self.plan.camera.footprint(distance) * shrink(self.film.iterations()),
+            radius: pixels * self.plan.camera.footprint(distance) * self.plan.shrink(self.film.iterations()),
             error_estimate: self.film.error_estimate(),
             ..stats(&self.counters, self.passes, self.seconds)
         }

@@ -14,13 +14,14 @@ pub(super) struct Block {
     pub(super) paths: Range<u64>,
 }
 
-/// The blocks of a pass that sends so many paths from each light.
-pub(super) fn of_photons(paths_by_light: &[u64]) -> Vec<Block> {
-    let of_light = |(light, &count): (usize, &u64)| {
-        (0..count.div_ceil(PATHS_PER_BLOCK))
-            .map(move |k| Block { light, paths: k * PATHS_PER_BLOCK..((k + 1) * PATHS_PER_BLOCK).min(count) })
+/// The blocks of a pass that follows these paths of each light's sequence.
+pub(super) fn of_photons(paths_by_light: impl Iterator<Item = Range<u64>>) -> Vec<Block> {
+    let of_light = |(light, paths): (usize, Range<u64>)| {
+        let end = paths.end;
+        let starts = paths.step_by(PATHS_PER_BLOCK as usize);
+        starts.map(move |start| Block { light, paths: start..(start + PATHS_PER_BLOCK).min(end) })
     };
-    paths_by_light.iter().enumerate().flat_map(of_light).collect()
+    paths_by_light.enumerate().flat_map(of_light).collect()
 }
 
 /// The pieces' items in order, and their counters' sum.

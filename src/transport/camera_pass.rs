@@ -7,7 +7,7 @@ use super::medium::Media;
 use super::photon;
 use super::plan::Plan;
 use super::{Cancel, Rows};
-use crate::math::{Ray, Rgb, Sampler, Stream};
+use crate::math::{Ray, Rgb, Sampler, Stream, sobol};
 use crate::world::{Light, Lobe, Scattering, Surface, SurfacePoint, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3, Vec3};
@@ -62,7 +62,7 @@ pub struct CameraBatch {
     pub counters: Counters,
 }
 
-/// One sample for every pixel of some rows; `None` when cancelled.
+/// The samples of an iteration for every pixel of some rows; `None` when cancelled.
 pub fn camera_pass(
     world: &World,
     plan: &Plan,
@@ -75,10 +75,10 @@ pub fn camera_pass(
         .clone()
         .into_par_iter()
         .map(|row| {
-            let mut walk = Walk { world, plan, batch: CameraBatch::default(), branches: ArrayVec::new() };
+            let mut walk =
+                Walk { world, plan, batch: CameraBatch::default(), branches: ArrayVec::new(), gathers: false };
             for pixel in row * plan.camera.width..(row + 1) * plan.camera.width {
-                let sampler = Sampler::new(seed, plan.stream(Stream::Camera), u64::from(pixel), iteration - 1);
-                walk.trace_pixel(pixel, sampler);
+                walk.sample_pixel(pixel, seed, iteration);
             }
             (!cancel.is_cancelled()).then_some(walk.batch)
         })
@@ -97,6 +97,8 @@ struct Walk<'a> {
     plan: &'a Plan,
     batch: CameraBatch,
     branches: ArrayVec<Branch, MAX_BRANCHES>,
+    /// Whether the present path leaves visible points.
+    gathers: bool,
 }
 
 /// One way that a path from the camera goes on.
@@ -126,11 +128,30 @@ enum Last {
 }
 
 impl Walk<'_> {
-    fn trace_pixel(&mut self, pixel: u32, mut sampler: Sampler) {
+    /// All samples of an iteration for one pixel, and visible points for one of them.
+    fn sample_pixel(&mut self, pixel: u32, seed: u64, iteration: u64) {
+        let samples = self.plan.camera_samples(iteration);
+        let count = samples.end - samples.start;
+        // Another place in the sequence each time: every n-th point of it would keep to a part of the pixel.
+        let gathered = samples.start + sobol::mix64(u64::from(pixel) ^ sobol::mix64(iteration)) % count;
+        let mut radiance = Rgb::ZERO;
+        for index in samples {
+            let mut sampler = Sampler::new(seed, self.plan.stream(Stream::Camera), u64::from(pixel), index);
+            self.gathers = index == gathered && self.plan.gathers();
+            radiance += self.trace_path(pixel, &mut sampler);
+        }
+        radiance /= count as f32;
+        if !radiance.is_finite() {
+            self.batch.counters.dropped_samples += 1;
+            radiance = Rgb::ZERO;
+        }
+        self.batch.radiance.push(radiance);
+    }
+
+    fn trace_path(&mut self, pixel: u32, sampler: &mut Sampler) -> Rgb {
         let corner = DVec2::new(f64::from(pixel % self.plan.camera.width), f64::from(pixel / self.plan.camera.width));
-        let ray = self.plan.camera.ray(corner + sampler.next_2d());
         self.branches.push(Branch {
-            ray,
+            ray: self.plan.camera.ray(corner + sampler.next_2d()),
             throughput: Rgb::ONE,
             media: Media::default(),
             bounces: 0,
@@ -140,13 +161,9 @@ impl Walk<'_> {
         });
         let mut radiance = Rgb::ZERO;
         while let Some(branch) = self.branches.pop() {
-            radiance += self.follow(branch, pixel, &mut sampler);
+            radiance += self.follow(branch, pixel, sampler);
         }
-        if !radiance.is_finite() {
-            self.batch.counters.dropped_samples += 1;
-            radiance = Rgb::ZERO;
-        }
-        self.batch.radiance.push(radiance);
+        radiance
     }
 
     /// To the next surface; returns the light that the camera gets from it without photons.
@@ -173,7 +190,7 @@ impl Walk<'_> {
         let mut radiance = Rgb::ZERO;
         if scatters {
             radiance = branch.throughput * direct::direct_light(self.world, &vertex, sampler, &mut self.batch.counters);
-            if self.plan.gathers() {
+            if self.gathers {
                 self.batch.visible_points.push(self.visible_point(&branch, &vertex, pixel, object));
             }
         }

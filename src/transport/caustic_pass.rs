@@ -48,14 +48,15 @@ pub fn caustic_photon_pass(
     cancel: Cancel,
 ) -> Option<CausticBatch> {
     let Some(caustics) = &plan.caustics else { return Some(CausticBatch::default()) };
-    let blocks: Vec<CausticBatch> = blocks::of_photons(&caustics.paths)
+    let paths = |&count: &u64| plan.paths(count, iteration);
+    let blocks: Vec<CausticBatch> = blocks::of_photons(caustics.paths.iter().map(paths))
         .into_par_iter()
         .map(|block| {
             let mut walk = Walk::new(world, plan, caustics, iteration);
-            let count = caustics.paths[block.light];
-            for k in block.paths.clone() {
-                // One sequence over all iterations: its points keep filling each other's gaps.
-                let index = (iteration - 1) * count + k;
+            let paths = paths(&caustics.paths[block.light]);
+            let count = paths.end - paths.start;
+            // One sequence over all iterations: its points keep filling each other's gaps.
+            for index in block.paths.clone() {
                 let sampler = Sampler::new(seed, plan.stream(Stream::CausticPhoton), block.light as u64, index);
                 walk.trace_path(block.light, count, sampler);
             }

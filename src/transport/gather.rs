@@ -1,5 +1,6 @@
 //! Photons to radiance: density estimates at visible points.
 
+use super::Cancel;
 use super::bsdf;
 use super::camera_pass::VisiblePoint;
 use super::counters::Counters;
@@ -7,7 +8,6 @@ use super::kernel;
 use super::photon_map::{PhotonMap, Query};
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::Plan;
-use super::{Cancel, schedule};
 use crate::geometry::Primitive;
 use crate::math::Rgb;
 use crate::world::{Lobe, SharedEdges, Surface, World};
@@ -91,8 +91,8 @@ impl Gatherer<'_> {
         let limit =
             if let Primitive::Sphere(sphere) = primitive { MAX_PART_OF_SPHERE * sphere.radius } else { f64::MAX };
         let largest = self.plan.largest_radius * self.world.radius;
-        let first = (pixels * f64::from(point.footprint)).min(largest).max(1e-6 * self.world.radius);
-        let radius = (first * schedule::shrink(self.iteration)).min(limit);
+        let first = pixels * f64::from(point.footprint);
+        let radius = (first * self.plan.shrink(self.iteration)).clamp(1e-6 * self.world.radius, largest).min(limit);
         let query = Query {
             position: point.position,
             normal: point.n_side,

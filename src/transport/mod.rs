@@ -40,7 +40,6 @@ pub use photon::{PackedDirection, Photon};
 pub use photon_map::{PhotonMap, Query};
 pub use photon_pass::global_photon_pass;
 pub use plan::{CausticPlan, Plan, PlanNote};
-pub use schedule::shrink;
 
 /// Rows of the film, from the top.
 pub type Rows = std::ops::Range<u32>;

@@ -25,13 +25,14 @@ pub fn global_photon_pass(
     iteration: u64,
     cancel: Cancel,
 ) -> Option<(Vec<Photon>, Counters)> {
-    let blocks: Vec<(Vec<Photon>, Counters)> = blocks::of_photons(&plan.global_paths)
+    let paths = |&count: &u64| plan.paths(count, iteration);
+    let blocks: Vec<(Vec<Photon>, Counters)> = blocks::of_photons(plan.global_paths.iter().map(paths))
         .into_par_iter()
         .map(|block| {
             let mut walk = Walk { world, photons: Vec::new(), counters: Counters::default() };
-            let count = plan.global_paths[block.light];
-            for k in block.paths.clone() {
-                let index = (iteration - 1) * count + k;
+            let paths = paths(&plan.global_paths[block.light]);
+            let count = paths.end - paths.start;
+            for index in block.paths.clone() {
                 let sampler = Sampler::new(seed, plan.stream(Stream::GlobalPhoton), block.light as u64, index);
                 walk.trace_path(block.light, count, sampler);
             }

@@ -1,9 +1,11 @@
 //! What a scene needs, decided before rendering, and why the rest is skipped.
 
 use super::guide::Guide;
+use super::schedule::{self, SMALLEST};
 use crate::geometry::Primitive;
 use crate::math::Stream;
 use crate::world::{Camera, Light, Lobe, Surface, World};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// One decision, for people.
@@ -24,9 +26,9 @@ pub struct Plan {
     pub camera: Camera,
     /// Caustics, where light can meet mirrors or glass.
     pub caustics: Option<CausticPlan>,
-    /// Paths that look for interreflection in an iteration, by light; empty where there is none.
+    /// Paths that look for interreflection in a full iteration, by light; empty where there is none.
     pub global_paths: Vec<u64>,
-    /// Radius of the first density estimate of caustics, pixels' footprints.
+    /// Radius of the density estimate of caustics after one full iteration, pixels' footprints.
     pub caustic_radius: f64,
     /// The same for interreflection.
     pub global_radius: f64,
@@ -40,24 +42,29 @@ pub struct Plan {
 /// How caustics are rendered.
 #[derive(Clone, Debug)]
 pub struct CausticPlan {
-    /// Paths in an iteration, by light.
+    /// Paths in a full iteration, by light.
     pub paths: Vec<u64>,
     /// Where each light meets mirrors or glass.
     pub guides: Arc<Vec<Guide>>,
     /// Whether the camera may see caustics in mirrors, through glass or in glossy surfaces.
     pub seen_indirectly: bool,
-    /// The first iterations gather directly seen caustics from the map, which is smoother while photons are few.
-    pub gathered_iterations: u64,
+    /// So many full iterations' directly seen caustics are gathered from the map, which is smoother while photons are
+    /// few.
+    pub gathered: f64,
 }
 
-/// Paths for interreflection in an iteration, for each pixel.
-const GLOBAL_PATHS_PER_PIXEL: f64 = 1.0;
-/// Paths for caustics in an iteration, for each pixel.
-const CAUSTIC_PATHS_PER_PIXEL: f64 = 1.0;
+/// Paths for interreflection in a full iteration, for each pixel: about as much work as the pixel's own paths.
+const GLOBAL_PATHS_PER_PIXEL: f64 = 4.0;
+/// Samples of a pixel in a full iteration. Photons are gathered for one of them, which is most of the work; the others
+/// find direct light, whose edges need them.
+const CAMERA_SAMPLES: f64 = 4.0;
+/// Paths for caustics in a full iteration, for each pixel.
+const CAUSTIC_PATHS_PER_PIXEL: f64 = 2.0;
 const LEAST_PATHS: f64 = 16_384.0;
-const MOST_PATHS: f64 = 1_048_576.0;
+/// More would make an iteration last longer than a user waits for the next frame.
+const MOST_PATHS: f64 = 524_288.0;
 /// Photons a pixel from which on adding them to the film is better than a density estimate.
-const PHOTONS_PER_PIXEL_TO_SPLAT: f64 = 4.0;
+const PHOTONS_PER_PIXEL_TO_SPLAT: f64 = 1.0;
 
 impl Plan {
     /// The plan for a world.
@@ -72,7 +79,7 @@ impl Plan {
             caustics,
             global_paths,
             caustic_radius: 2.0,
-            global_radius: 6.0,
+            global_radius: 12.0,
             largest_radius: 0.05,
             notes: notes.0,
             is_draft: false,
@@ -87,14 +94,14 @@ impl Plan {
         let fewer = |paths: &[u64], total: f64| share(paths.iter().map(|&p| p as f64).collect(), total);
         let caustics = self.caustics.as_ref().map(|caustics| CausticPlan {
             paths: fewer(&caustics.paths, pixels.clamp(4096.0, 32_768.0)),
-            gathered_iterations: u64::MAX,
+            gathered: f64::INFINITY,
             ..caustics.clone()
         });
         Self {
             camera,
             caustics,
             global_paths: fewer(&self.global_paths, (0.25 * pixels).clamp(1024.0, 8192.0)),
-            global_radius: 10.0,
+            global_radius: 12.0,
             largest_radius: 0.2,
             is_draft: true,
             ..self.clone()
@@ -103,7 +110,32 @@ impl Plan {
 
     /// Whether caustics that the camera sees directly come from the map in this iteration.
     pub fn gathers_visible_caustics(&self, iteration: u64) -> bool {
-        self.caustics.as_ref().is_some_and(|caustics| iteration <= caustics.gathered_iterations)
+        self.caustics.as_ref().is_some_and(|caustics| schedule::size_before(iteration) < caustics.gathered)
+    }
+
+    /// The weight of an iteration in the mean: its part of the paths of a full one.
+    pub fn weight(&self, iteration: u64) -> f64 {
+        if self.is_draft { 1.0 } else { schedule::size(iteration) }
+    }
+
+    /// Which samples of each pixel's sequence belong to an iteration; at least one.
+    pub(super) fn camera_samples(&self, iteration: u64) -> Range<u64> {
+        if self.is_draft {
+            return 0..1;
+        }
+        let before = |i| (CAMERA_SAMPLES * schedule::size_before(i)).ceil() as u64;
+        before(iteration)..before(iteration + 1)
+    }
+
+    /// The factor by which radii have shrunk in an iteration.
+    pub fn shrink(&self, iteration: u64) -> f64 {
+        if self.is_draft { 1.0 } else { schedule::shrink(iteration) }
+    }
+
+    /// Which paths of a light's sequence belong to an iteration, where a full one has `count`.
+    pub(super) fn paths(&self, count: u64, iteration: u64) -> Range<u64> {
+        let start = (count as f64 * schedule::size_before(iteration)) as u64;
+        start..start + (count as f64 * self.weight(iteration)) as u64
     }
 
     /// Whether anything is gathered at visible points.
@@ -140,8 +172,8 @@ fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
     );
     let seen_indirectly = plan_seen_indirectly(world, notes);
     let photons_per_pixel = paths.iter().sum::<u64>() as f64 / world.camera.pixel_count() as f64;
-    let gathered_iterations = (PHOTONS_PER_PIXEL_TO_SPLAT / photons_per_pixel).ceil() as u64;
-    Some(CausticPlan { paths, guides: Arc::new(guides), seen_indirectly, gathered_iterations })
+    let gathered = PHOTONS_PER_PIXEL_TO_SPLAT / photons_per_pixel;
+    Some(CausticPlan { paths, guides: Arc::new(guides), seen_indirectly, gathered })
 }
 
 fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
@@ -181,10 +213,12 @@ fn power(light: &Light) -> f64 {
     f64::from(light.power().max_element())
 }
 
-/// Whole numbers in proportion to the weights, at least 1 each where the weight is not 0, about `total` together.
+/// Numbers of paths in proportion to the weights, not 0 where the weight is not 0, about `total` together; multiples of
+/// what the schedule divides them by.
 fn share(weights: Vec<f64>, total: f64) -> Vec<u64> {
     let sum: f64 = weights.iter().sum();
-    weights.iter().map(|w| if sum > 0.0 { (w / sum * total).ceil() as u64 } else { 0 }).collect()
+    let paths = |w: f64| ((w / sum * total) as u64).next_multiple_of(SMALLEST).max(SMALLEST);
+    weights.into_iter().map(|w| if w > 0.0 { paths(w) } else { 0 }).collect()
 }
 
 fn shows(world: &World, is_so: impl Fn(&World, u32) -> bool) -> bool {

@@ -1,18 +1,46 @@
-//! The radius of the density estimate, iteration by iteration \[KZ11\].
+//! How iterations differ: the first ones are small, so that there soon is a picture, and radii shrink.
 
-/// How fast radii shrink: `r_i = r_1 i^(-(1 - alpha) / 2)`. 2/3 balances bias and noise of a mean over independent
+/// The first iteration has this part of the paths of a full one; each has twice the paths of the one before, up to full.
+const FIRST_SIZE: f64 = 1.0 / SMALLEST as f64;
+/// Paths of a full iteration come in multiples of this.
+pub(super) const SMALLEST: u64 = 1 << GROWING_ITERATIONS;
+const GROWING_ITERATIONS: u32 = 3;
+
+/// How fast radii shrink: `r ~ n^(-(1 - alpha) / 2)`. 2/3 balances bias and noise of a mean over independent
 /// iterations \[KZ11\].
 const ALPHA: f64 = 2.0 / 3.0;
 
-/// The factor by which the radius of iteration `i` (from 1) is smaller than the first, by the power form that needs
-/// no recursion.
-pub fn shrink(iteration: u64) -> f64 {
-    (iteration.max(1) as f64).powf(-0.5 * (1.0 - ALPHA))
+/// Paths in iteration `i` (from 1), parts of a full iteration: also its weight in the mean.
+pub fn size(i: u64) -> f64 {
+    FIRST_SIZE * (1u64 << i.saturating_sub(1).min(u64::from(GROWING_ITERATIONS))) as f64
+}
+
+/// Paths in all iterations before `i`, in full iterations.
+pub fn size_before(i: u64) -> f64 {
+    let before = i.saturating_sub(1);
+    let growing = before.min(u64::from(GROWING_ITERATIONS));
+    FIRST_SIZE * ((1u64 << growing) - 1) as f64 + (before - growing) as f64
+}
+
+/// The factor by which radii shrink from a full first iteration to iteration `i`: the schedule by the number of photons
+/// so far \[KZ11\], in the power form, which needs no recursion.
+pub fn shrink(i: u64) -> f64 {
+    size_before(i.max(1) + 1).powf(-0.5 * (1.0 - ALPHA))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sizes_add_up() {
+        let mut sum = 0.0;
+        for i in 1..100 {
+            assert_eq!(size_before(i), sum, "before iteration {i}");
+            sum += size(i);
+        }
+        assert_eq!((size(1), size(4), size(99)), (0.125, 1.0, 1.0));
+    }
 
     /// The recursion `r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1)` of the paper approaches the power form times 1.108.
     #[test]
@@ -27,6 +55,6 @@ mod tests {
 
     #[test]
     fn late_iterations_stay_finite() {
-        assert!(shrink(0) == 1.0 && shrink(u64::MAX) > 0.0 && shrink(1_000_000_000) < shrink(1_000_000));
+        assert!(shrink(u64::MAX - 1) > 0.0 && shrink(1_000_000_000) < shrink(1_000_000));
     }
 }
