@@ -3,8 +3,8 @@
 use crate::canvas::{hex, smoothstep};
 use glam::{DVec2, DVec3};
 
-const CENTER: DVec2 = DVec2::new(0.36, 0.60);
-const RADIUS: f64 = 0.27;
+const CENTER: DVec2 = DVec2::new(0.31, 0.62);
+const RADIUS: f64 = 0.25;
 
 pub(crate) fn color(p: DVec2) -> DVec3 {
     let q = (p - CENTER) / RADIUS;
