@@ -31,4 +31,14 @@ impl Cubic {
         let middle = d.midpoint(e);
         [Self([p0, a, d, middle]), Self([middle, e, c, p3])]
     }
+
+    /// The part from `low` to `high`. Each of its control points is the blossom of the curve at three values, each of
+    /// them `low` or `high`.
+    pub(super) fn part(&self, (low, high): (f64, f64)) -> Self {
+        let [p0, p1, p2, p3] = self.0;
+        let steps = |t: f64| [mix(p0, p1, t), mix(p1, p2, t), mix(p2, p3, t)];
+        let ([a, b, c], [d, e, f]) = (steps(low), steps(high));
+        let (ab, bc, de, ef) = (mix(a, b, low), mix(b, c, low), mix(d, e, high), mix(e, f, high));
+        Self([mix(ab, bc, low), mix(ab, bc, high), mix(de, ef, low), mix(de, ef, high)])
+    }
 }

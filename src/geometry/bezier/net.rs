@@ -70,6 +70,13 @@ impl ControlNet {
         self.points.iter().flatten().all(|p| p.is_finite())
     }
 
+    /// The net of the part over `u.0 <= u <= u.1`, `v.0 <= v <= v.1`; the ends may lie outside of the unit interval.
+    pub fn restricted(&self, u: (f64, f64), v: (f64, f64)) -> Self {
+        let rows = self.points.map(|row| Cubic(row).part(v).0);
+        let columns: [_; 4] = from_fn(|j| Cubic(from_fn(|i| rows[i][j])).part(u).0);
+        Self { points: from_fn(|i| from_fn(|j| columns[j][i])) }
+    }
+
     /// The two halves `u <= 1/2` and `u >= 1/2`, each again over the unit square.
     pub fn split_u(&self) -> [Self; 2] {
         let columns: [_; 4] = from_fn(|j| Cubic(from_fn(|i| self.points[i][j])).halves());

@@ -46,6 +46,26 @@ pub(super) enum Outcome {
 impl Domain {
     pub(super) const WHOLE: Self = Self { x: 0.0, y: 0.0, half_x: 1.0, half_y: 1.0 };
 
+    /// By how much a point is outside of the domain enlarged by a factor, and by [`SLACK`], in units of its half size;
+    /// negative inside.
+    #[inline(always)]
+    fn outside(&self, x: f64, y: f64, enlarged: f64) -> f64 {
+        let off = |distance: f64, half: f64| (distance.abs() - enlarged * half - SLACK) / half;
+        let (x, y) = (off(x - self.x, self.half_x), off(y - self.y, self.half_y));
+        // Keeps a NaN.
+        if x > y { x } else { y }
+    }
+
+    /// The nearest point of the domain enlarged in the same way.
+    #[inline(always)]
+    fn clamped(&self, x: f64, y: f64, enlarged: f64) -> (f64, f64) {
+        let limit = |x: f64, middle: f64, half: f64| {
+            let half = enlarged * half + SLACK;
+            x.clamp(middle - half, middle + half)
+        };
+        (limit(x, self.x, self.half_x), limit(y, self.y, self.half_y))
+    }
+
     pub(super) fn halves_x(&self) -> [Self; 2] {
         let half_x = 0.5 * self.half_x;
         [Self { x: self.x - half_x, half_x, ..*self }, Self { x: self.x + half_x, half_x, ..*self }]
@@ -57,48 +77,78 @@ impl Domain {
     }
 }
 
-/// Looks for the root in a part where the ray is known to meet the patch once at most, starting from (x, y).
-///
-/// `nonlinearity` is a bound c of the norm of `A J - 1` over the part, in coordinates in which the part is the square
-/// `[-1, 1]^2`: J is the Jacobian of the equations and A some matrix. A Newton step from x leads to within
-/// `k |x - root|` of the root, with `k = 2 c / (1 - c)`, since the inverse of `A J` is at most `1 / (1 - c)` and two
-/// values of `A J` differ by at most 2 c. So with the length s of the step, the root is at most
-/// `k / (1 - k) s = 2 c / (1 - 3 c) s` away from where the step leads. With c >= 1/3 that says nothing, and a root may be
-/// found but not excluded.
+/// What is known of the roots in and around a part.
+pub(super) struct Knowledge {
+    /// The part enlarged by this factor has no more than one root with `slope`.
+    pub(super) enlarged: f64,
+    /// The sign of `direction . (dS/dx x dS/dy)` at the root to look for; zero if there is no more than one of either.
+    pub(super) slope: f64,
+    /// A root in the part is no farther from where a Newton step leads than this times the length of the step; infinite
+    /// if that is unknown.
+    pub(super) reach: f64,
+}
+
+impl Knowledge {
+    /// From a bound c of the norm of `A J - 1` over a part, with J the Jacobian of the equations and A some matrix, in
+    /// coordinates in which the part is the square `[-1, 1]^2`. None unless it makes a root unique.
+    ///
+    /// A Newton step from x leads to within `k |x - root|` of the root, with `k = 2 c / (1 - c)`, since the inverse of
+    /// `A J` is at most `1 / (1 - c)` and two values of `A J` differ by at most 2 c. So with the length s of the step, the
+    /// root is at most `k / (1 - k) s = 2 c / (1 - 3 c) s` away from where the step leads, as long as `3 c < 1`.
+    pub(super) fn from_nonlinearity(c: f64) -> Option<Self> {
+        let reach = if c < 0.33 { 2.0 * c / (1.0 - 3.0 * c) } else { f64::INFINITY };
+        (c < 1.0).then_some(Self { enlarged: 1.0, slope: 0.0, reach })
+    }
+}
+
+/// Looks for the root in a part, starting from (x, y).
 #[inline(always)]
-pub(super) fn solve(patch: &PowerForm, ray: &UnitRay, part: &Domain, nonlinearity: f64, start: (f64, f64)) -> Outcome {
-    let reach = if nonlinearity < 0.33 { 2.0 * nonlinearity / (1.0 - 3.0 * nonlinearity) } else { f64::INFINITY };
-    let (limit_x, limit_y) = (part.half_x + SLACK, part.half_y + SLACK);
+pub(super) fn solve(patch: &PowerForm, ray: &UnitRay, part: &Domain, known: &Knowledge, start: (f64, f64)) -> Outcome {
     let (mut x, mut y) = start;
     let mut clamped = 0;
     for _ in 0..MAX_STEPS {
         let p = patch.tangents(x, y);
-        let (dx, dy) = step(&p, ray);
-        let (off_x, off_y) = ((x + dx - part.x).abs() - limit_x, (y + dy - part.y).abs() - limit_y);
-        let length = (dx.abs() / part.half_x).max(dy.abs() / part.half_y);
-        let outside = (off_x / part.half_x).max(off_y / part.half_y);
-        if outside > reach * length {
+        let step = step(&p, ray);
+        let (next_x, next_y) = (x + step.dx, y + step.dy);
+        let length = (step.dx.abs() / part.half_x).max(step.dy.abs() / part.half_y);
+        let outside = part.outside(next_x, next_y, 1.0);
+        if outside > known.reach * length {
             return Outcome::None;
         }
-        if length < LAST_STEP && outside <= 0.0 {
-            let position = p.position + dx * p.dx + dy * p.dy;
-            return Outcome::Root(Root { x: x + dx, y: y + dy, z: ray.direction.dot(position - ray.origin) });
+        let beyond = if known.enlarged == 1.0 { outside } else { part.outside(next_x, next_y, known.enlarged) };
+        if length < LAST_STEP && beyond <= 0.0 {
+            if step.slope * known.slope < 0.0 {
+                return Outcome::Unknown;
+            }
+            if outside > 0.0 {
+                return Outcome::None;
+            }
+            let position = p.position + step.dx * p.dx + step.dy * p.dy;
+            return Outcome::Root(Root { x: next_x, y: next_y, z: ray.direction.dot(position - ray.origin) });
         }
-        clamped += usize::from(outside > 0.0);
-        if clamped > MAX_CLAMPED || outside.is_nan() {
+        clamped += usize::from(beyond > 0.0);
+        if clamped > MAX_CLAMPED || beyond.is_nan() {
             break;
         }
-        x = (x + dx).clamp(part.x - limit_x, part.x + limit_x);
-        y = (y + dy).clamp(part.y - limit_y, part.y + limit_y);
+        (x, y) = part.clamped(next_x, next_y, known.enlarged);
     }
     Outcome::Unknown
 }
 
-/// The Newton step: where the ray meets the tangent plane, by Cramer's rule. Not finite where it does not.
+/// A Newton step.
+struct Step {
+    dx: f64,
+    dy: f64,
+    /// `direction . (dS/dx x dS/dy)`.
+    slope: f64,
+}
+
+/// The Newton step: to where the ray meets the tangent plane, by Cramer's rule. Not finite where it does not.
 #[inline(always)]
-fn step(p: &Tangents, ray: &UnitRay) -> (f64, f64) {
+fn step(p: &Tangents, ray: &UnitRay) -> Step {
     let to_ray = ray.origin - p.position;
     let across_y = p.dy.cross(ray.direction);
-    let inverse = 1.0 / p.dx.dot(across_y);
-    (to_ray.dot(across_y) * inverse, p.dx.cross(to_ray).dot(ray.direction) * inverse)
+    let slope = p.dx.dot(across_y);
+    let inverse = 1.0 / slope;
+    Step { dx: to_ray.dot(across_y) * inverse, dy: p.dx.cross(to_ray).dot(ray.direction) * inverse, slope }
 }

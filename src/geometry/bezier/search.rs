@@ -1,7 +1,7 @@
 //! Roots by subdivision, where a ray grazes a part or a part is not flat: halve until a piece is missed for certain or
 //! holds at most one root for certain.
 
-use super::newton::{Domain, Outcome, Root, solve};
+use super::newton::{Domain, Knowledge, Outcome, Root, solve};
 use super::ray_net::RayNet;
 use super::traverse::Walk;
 use multiversion::multiversion;
@@ -32,12 +32,12 @@ fn visit_piece(walk: &mut Walk, piece: &RayNet, domain: &Domain, depth: usize) {
     walk.pieces_left -= 1;
     let outcome = match piece.affine() {
         Some(affine) if affine.is_missed => Outcome::None,
-        Some(affine) if affine.nonlinearity < 1.0 => {
+        Some(affine) => Knowledge::from_nonlinearity(affine.nonlinearity).map_or(Outcome::Unknown, |known| {
             let [s, t] = affine.start.map(|x| x.clamp(-1.0, 1.0));
             let start = (domain.x + s * domain.half_x, domain.y + t * domain.half_y);
-            solve(&walk.patch.power, &walk.ray, domain, affine.nonlinearity, start)
-        }
-        _ => Outcome::Unknown,
+            solve(&walk.patch.power, &walk.ray, domain, &known, start)
+        }),
+        None => Outcome::Unknown,
     };
     match outcome {
         Outcome::Root(root) => walk.accept(root),

@@ -1,9 +1,10 @@
 //! From a ray to its nearest hit: down the tree of parts, nearest first.
 
-use super::newton::{Outcome, Root, solve};
+use super::newton::{Knowledge, Outcome, Root, solve};
+use super::packet::{Packet, PacketRay};
+use super::paraboloid::MARGIN;
 use super::patch::Prepared;
 use super::search::subdivide;
-use super::slab::{FlatParts, FlatRay};
 use super::tree::{Link, Target};
 use super::unit::UnitRay;
 use multiversion::multiversion;
@@ -26,7 +27,7 @@ const MAX_PIECES: usize = 5_000;
 pub(super) struct Walk<'a> {
     pub(super) patch: &'a Prepared,
     pub(super) ray: UnitRay,
-    flat_ray: FlatRay,
+    packet_ray: PacketRay,
     best: Option<Hit>,
     pub(super) pieces_left: usize,
 }
@@ -34,7 +35,7 @@ pub(super) struct Walk<'a> {
 impl<'a> Walk<'a> {
     #[inline(always)]
     pub(super) fn new(patch: &'a Prepared, ray: UnitRay) -> Self {
-        Self { patch, flat_ray: FlatRay::new(&ray), ray, best: None, pieces_left: MAX_PIECES }
+        Self { patch, packet_ray: PacketRay::new(&ray), ray, best: None, pieces_left: MAX_PIECES }
     }
 
     /// The nearest hit, or with `ANY` the first to be found.
@@ -45,16 +46,16 @@ impl<'a> Walk<'a> {
         while height > 0 {
             height -= 1;
             let (near, link) = stack[height];
-            if near > self.flat_ray.z_max.to_array()[0] {
+            if near > self.z_max() {
                 continue;
             }
             match self.patch.tree.follow(link) {
                 Target::Node(node) => {
-                    let (mask, near) = node.test(&self.flat_ray);
+                    let (mask, near) = node.test(&self.packet_ray);
                     height = push_farthest_first(&mut stack, height, mask, |k| (near[k], node.child(k)));
                 }
-                Target::Leaf(parts) => {
-                    self.visit_leaf(parts);
+                Target::Packet(packet) => {
+                    self.visit_packet(packet);
                     if ANY && self.best.is_some() {
                         return self.best;
                     }
@@ -65,29 +66,37 @@ impl<'a> Walk<'a> {
     }
 
     #[inline(always)]
-    fn visit_leaf(&mut self, parts: &FlatParts) {
-        let candidates = parts.test(&self.flat_ray);
-        let mut mask = candidates.mask;
-        while mask != 0 {
-            let k = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            if candidates.near[k] > self.flat_ray.z_max.to_array()[0] {
+    fn visit_packet(&mut self, packet: &Packet) {
+        let candidates = packet.test(&self.packet_ray);
+        let mut branches = candidates.branches;
+        while branches != 0 {
+            let bit = branches.trailing_zeros() as usize;
+            branches &= branches - 1;
+            let branch = candidates.branch(bit);
+            if branch.near > self.z_max() {
                 continue;
             }
-            let part = parts.domain(k);
-            let outcome = if candidates.unique >> k & 1 != 0 {
-                let [s, t] = candidates.start.map(|start| f64::from(start[k]).clamp(-1.0, 1.0));
-                let start = (part.x + s * part.half_x, part.y + t * part.half_y);
-                solve(&self.patch.power, &self.ray, &part, f64::from(candidates.nonlinearity[k]), start)
-            } else {
-                Outcome::Unknown
-            };
-            match outcome {
+            let (part, enlarged) = packet.domain(bit % 4);
+            let start =
+                (part.x + branch.start.0 * MARGIN * part.half_x, part.y + branch.start.1 * MARGIN * part.half_y);
+            let known = Knowledge { enlarged, slope: branch.slope, reach: f64::INFINITY };
+            match solve(&self.patch.power, &self.ray, &part, &known, start) {
                 Outcome::Root(root) => self.accept(root),
                 Outcome::None => {}
                 Outcome::Unknown => subdivide(self, &part),
             }
         }
+        let mut unknown = candidates.unknown;
+        while unknown != 0 {
+            subdivide(self, &packet.domain(unknown.trailing_zeros() as usize).0);
+            unknown &= unknown - 1;
+        }
+    }
+
+    /// The upper end of what still counts, rounded up.
+    #[inline(always)]
+    fn z_max(&self) -> f32 {
+        self.packet_ray.z_max.to_array()[0]
     }
 
     /// Keeps a root if it is the nearest so far.
@@ -98,7 +107,7 @@ impl<'a> Walk<'a> {
         {
             self.best = Some(Hit { root, t });
             self.ray.z_max = root.z;
-            self.flat_ray.shorten(&self.ray);
+            self.packet_ray.shorten(&self.ray);
         }
     }
 }

@@ -2,16 +2,17 @@
 
 use super::ControlNet;
 use super::newton::Domain;
-use super::slab::{FlatPart, FlatParts, FlatRay, ROUNDING};
+use super::packet::{Packet, PacketRay};
+use super::paraboloid::{MARGIN, Paraboloid, ROUNDING};
 use crate::math::Aabb;
 use crate::math::float::{round_down, round_up};
 use std::array::from_fn;
 use std::collections::BinaryHeap;
 use wide::f32x4;
 
-/// Parts whose tangents turn by less than this stay whole: nearly every ray that comes near them is then decided by
-/// the bounds of the part and two Newton steps.
-const FLAT_ENOUGH: f64 = 0.12;
+/// Parts with [`turns`] below this stay whole: nearly every ray is then decided by the paraboloids and three Newton
+/// steps.
+const FLAT_ENOUGH: f64 = 0.06;
 
 /// Limit of the number of parts, for the sake of memory and of build time; 64 KiB would hold twice as many.
 const MAX_PARTS: usize = 256;
@@ -23,19 +24,19 @@ const MAX_DEPTH: usize = 12;
 #[derive(Clone, Debug, Default)]
 pub(super) struct PartTree {
     nodes: Vec<Node>,
-    leaves: Vec<FlatParts>,
+    packets: Vec<Packet>,
 }
 
 /// Reference to a node or to a leaf of four parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Link(u32);
 
-const LEAF_BIT: u32 = 1 << 31;
+const PACKET_BIT: u32 = 1 << 31;
 
 /// What a [`Link`] leads to.
 pub(super) enum Target<'a> {
     Node(&'a Node),
-    Leaf(&'a FlatParts),
+    Packet(&'a Packet),
 }
 
 /// Four boxes and what is in them.
@@ -51,7 +52,8 @@ struct Piece {
     net: ControlNet,
     domain: Domain,
     depth: usize,
-    flat: FlatPart,
+    /// See [`turns`].
+    turns: [f64; 2],
     halves: Option<[usize; 2]>,
 }
 
@@ -66,14 +68,14 @@ impl PartTree {
 
     /// The top of the tree.
     pub(super) fn root(&self) -> Link {
-        if self.nodes.is_empty() { Link(LEAF_BIT) } else { Link(0) }
+        if self.nodes.is_empty() { Link(PACKET_BIT) } else { Link(0) }
     }
 
     /// Follows a link.
     #[inline(always)]
     pub(super) fn follow(&self, link: Link) -> Target<'_> {
-        if link.0 & LEAF_BIT != 0 {
-            Target::Leaf(&self.leaves[(link.0 & !LEAF_BIT) as usize])
+        if link.0 & PACKET_BIT != 0 {
+            Target::Packet(&self.packets[(link.0 & !PACKET_BIT) as usize])
         } else {
             Target::Node(&self.nodes[link.0 as usize])
         }
@@ -81,15 +83,15 @@ impl PartTree {
 
     /// Memory on the heap.
     pub(super) fn heap_bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>() + self.leaves.capacity() * size_of::<FlatParts>()
+        self.nodes.capacity() * size_of::<Node>() + self.packets.capacity() * size_of::<Packet>()
     }
 
     /// Adds the tree below a piece.
     fn link(&mut self, pieces: &[Piece], root: usize) -> Link {
         let below = parts_below(pieces, root);
         if below.len() <= 4 {
-            self.leaves.push(FlatParts::new(&below.iter().map(|&k| pieces[k].flat).collect::<Vec<_>>()));
-            return Link(LEAF_BIT | (self.leaves.len() - 1) as u32);
+            self.packets.push(Packet::new(&below.iter().map(|&k| pieces[k].paraboloid()).collect::<Vec<_>>()));
+            return Link(PACKET_BIT | (self.packets.len() - 1) as u32);
         }
         let index = self.nodes.len();
         let children = four_below(pieces, root);
@@ -121,30 +123,36 @@ fn cut(net: &ControlNet) -> Vec<Piece> {
 
 impl Piece {
     fn new(net: ControlNet, domain: Domain, depth: usize) -> Self {
-        Self { net, domain, depth, flat: FlatPart::new(&net, domain), halves: None }
+        Self { net, domain, depth, turns: turns(&net), halves: None }
     }
 
     /// How much halving would help, as a sortable number; none for a part that may stay whole.
     fn need(&self) -> Option<u64> {
-        let curvature = self.flat.curvature();
-        let open = curvature > FLAT_ENOUGH && self.depth < MAX_DEPTH;
+        let turn = self.turns[0].max(self.turns[1]);
+        let open = turn > FLAT_ENOUGH && self.depth < MAX_DEPTH;
         // The bits of positive floating-point numbers sort as the numbers do.
-        open.then(|| (curvature.min(1.0) * self.net.bounds().diagonal()).to_bits())
+        open.then(|| (turn.min(1.0) * self.net.bounds().diagonal()).to_bits())
     }
 
     /// Two halves, along the axis along which the tangents turn more.
     fn cut(&self) -> [Self; 2] {
-        let (nets, domains) = if turns_more_along_u(&self.net) {
+        let (nets, domains) = if self.turns[0] >= self.turns[1] {
             (self.net.split_u(), self.domain.halves_x())
         } else {
             (self.net.split_v(), self.domain.halves_y())
         };
         [0, 1].map(|k| Self::new(nets[k], domains[k], self.depth + 1))
     }
+
+    fn paraboloid(&self) -> Paraboloid {
+        let ends = (0.5 - 0.5 * MARGIN, 0.5 + 0.5 * MARGIN);
+        Paraboloid::new(&self.net.restricted(ends, ends), self.domain)
+    }
 }
 
-/// Compares how much the partial derivatives change along u and along v, relative to their length.
-fn turns_more_along_u(net: &ControlNet) -> bool {
+/// How much the partial derivatives change along u, and along v, relative to their length: about a third of the angle
+/// by which a tangent turns.
+fn turns(net: &ControlNet) -> [f64; 2] {
     let p = &net.points;
     let (mut du, mut dv, mut duu, mut duv, mut dvv) = (0f64, 0f64, 0f64, 0f64, 0f64);
     for i in 0..3 {
@@ -160,8 +168,8 @@ fn turns_more_along_u(net: &ControlNet) -> bool {
             }
         }
     }
-    // Each ratio cross-multiplied with the other's denominator, so that zero lengths need no care.
-    (duu * dv).max(duv * du) >= (dvv * du).max(duv * dv)
+    let ratio = |change: f64, length: f64| if change > 0.0 { (change / length).sqrt() } else { 0.0 };
+    [ratio(duu, du).max(ratio(duv, dv)), ratio(dvv, dv).max(ratio(duv, du))]
 }
 
 /// The parts at or below a piece.
@@ -193,7 +201,7 @@ impl Node {
 
     /// Which boxes the ray meets (bit k for child k), and where it enters them.
     #[inline(always)]
-    pub(super) fn test(&self, ray: &FlatRay) -> (u32, [f32; 4]) {
+    pub(super) fn test(&self, ray: &PacketRay) -> (u32, [f32; 4]) {
         let mut near = ray.z_min;
         let mut far = ray.z_max;
         for axis in 0..3 {
