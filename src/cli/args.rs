@@ -22,6 +22,10 @@ pub(super) enum Command {
     Bench(BenchArguments),
     /// Check a scene; print what would be rendered, what is skipped and why
     Check(CheckArguments),
+    /// Print the nearest hit of every ray on Bezier patches: `1,t,u,v` or `0,,,`
+    Intersect(IntersectArguments),
+    /// Write the Bezier patches of a scene as a mesh (.obj) or as control points (.bpt)
+    Export(ExportArguments),
 }
 
 /// How the rendering is done.
@@ -97,6 +101,38 @@ pub(super) struct BenchArguments {
 pub(super) struct CheckArguments {
     /// A scene file or the name of a built-in scene
     pub(super) scene: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct IntersectArguments {
+    /// For each patch a line `patch NAME` and 16 lines `x y z`, four along v for each step along u
+    pub(super) patches: PathBuf,
+    /// A table with a header and the columns ox, oy, oz, dx, dy, dz and perhaps tmin: hits at t <= tmin do not count
+    #[arg(value_name = "RAYS.csv")]
+    pub(super) rays: PathBuf,
+    /// Take this patch alone; without it every line names the patch that was hit, from 0, where there are several
+    #[arg(long, value_name = "NAME")]
+    pub(super) patch: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ExportArguments {
+    /// A scene file or the name of a built-in scene
+    pub(super) scene: PathBuf,
+    /// .obj: quads with normals and (u, v), welded where patches meet; .bpt: the control points
+    #[arg(short, long, value_name = "OUT.(obj|bpt)")]
+    pub(super) output: PathBuf,
+    /// Take this object alone [default: all objects of Bezier patches]
+    #[arg(long, value_name = "NAME")]
+    pub(super) object: Option<String>,
+    /// Quads along each side of a patch, in an .obj
+    #[arg(long, value_name = "N", default_value = "16", value_parser = parse_steps)]
+    pub(super) steps: NonZeroUsize,
+}
+
+fn parse_steps(text: &str) -> Result<NonZeroUsize, String> {
+    let steps = text.parse().ok().filter(|steps: &NonZeroUsize| steps.get() <= 1024);
+    steps.ok_or_else(|| "expected a number from 1 to 1024".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {

@@ -4,6 +4,8 @@ mod args;
 mod bench;
 mod check;
 mod error;
+mod export;
+mod intersect;
 mod progress;
 mod render;
 mod statistics;
@@ -21,5 +23,7 @@ pub fn run(arguments: Arguments) -> Result<(), CliError> {
         Some(Command::Render(render)) => render::render(&render),
         Some(Command::Bench(bench)) => bench::bench(&bench),
         Some(Command::Check(check)) => check::check(&check),
+        Some(Command::Intersect(intersect)) => intersect::intersect(&intersect),
+        Some(Command::Export(export)) => export::export(&export),
     }
 }

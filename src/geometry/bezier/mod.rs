@@ -2,6 +2,7 @@
 
 mod bpt;
 mod cubic;
+mod mesh;
 mod net;
 mod newton;
 mod normal;
@@ -16,5 +17,6 @@ mod tree;
 mod unit;
 
 pub use bpt::{BptError, BptProblem, read_bpt, write_bpt};
+pub use mesh::{MeshCorner, QuadMesh};
 pub use net::{ControlNet, Derivatives};
 pub use patch::{Patch, PatchHit};

@@ -128,7 +128,7 @@ impl Packet {
         let known = steepness.simd_gt(slope_error * slope_error + f32x4::splat(2e-6) * b_squared);
         let none = (discriminant + spread).simd_lt(f32x4::splat(-2e-6) * b_squared);
 
-        let sign = b.sign_bit().bitselect(-f32x4::ONE, f32x4::ONE);
+        let sign = b.is_sign_negative().bitselect(-f32x4::ONE, f32x4::ONE);
         let root = discriminant.sqrt();
         let sum = b + sign * root;
         let w = [f32x4::splat(-2.0) * c / sum, -half * sum / a];

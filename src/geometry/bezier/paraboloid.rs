@@ -144,15 +144,11 @@ fn largest(values: &Bernstein) -> f64 {
 /// The means of the second derivatives by ss, st and tt, as `f32` numbers. Parameters from -1 to 1 make a derivative of
 /// a cubic 3/2 of a difference of control points.
 fn mean_hessian(values: &Bernstein) -> [f64; 3] {
-    let (mut ss, mut st, mut tt) = (0.0, 0.0, 0.0);
-    for i in 0..4 {
-        for j in 0..2 {
-            ss += 1.5 / 8.0 * (values[j + 2][i] - 2.0 * values[j + 1][i] + values[j][i]);
-            tt += 1.5 / 8.0 * (values[i][j + 2] - 2.0 * values[i][j + 1] + values[i][j]);
-        }
-    }
+    let bend = |[a, b, c, d]: [f64; 4]| 1.5 / 8.0 * ((c - 2.0 * b + a) + (d - 2.0 * c + b));
+    let ss: f64 = (0..4).map(|j| bend(from_fn(|i| values[i][j]))).sum();
+    let tt: f64 = (0..4).map(|i| bend(values[i])).sum();
     // The sum of all nine mixed differences.
-    st += 2.25 / 9.0 * (values[3][3] - values[3][0] - values[0][3] + values[0][0]);
+    let st = 2.25 / 9.0 * (values[3][3] - values[3][0] - values[0][3] + values[0][0]);
     [ss, st, tt].map(|h| f64::from(h as f32))
 }
 
@@ -194,14 +190,10 @@ fn sum_of_products(terms: [(&Bernstein, &Bernstein, f64); 3]) -> [[f64; 7]; 7] {
 /// Bounds of the absolute derivatives by s and by t of a polynomial of degree `N - 1` in each: they have the differences
 /// of control points times half the degree, `half_degree`, for control points.
 fn largest_derivatives<const N: usize>(values: &[[f64; N]; N], half_degree: f64) -> [f64; 2] {
-    let (mut by_s, mut by_t) = (0f64, 0f64);
-    for i in 0..N - 1 {
-        for j in 0..N {
-            by_s = by_s.max(half_degree * (values[i + 1][j] - values[i][j]).abs());
-            by_t = by_t.max(half_degree * (values[j][i + 1] - values[j][i]).abs());
-        }
-    }
-    [by_s, by_t]
+    let largest = |steps: &dyn Fn(usize, usize) -> f64| {
+        (0..N * (N - 1)).map(|k| half_degree * steps(k / N, k % N).abs()).fold(0.0, f64::max)
+    };
+    [largest(&|i, j| values[i + 1][j] - values[i][j]), largest(&|j, i| values[i][j + 1] - values[i][j])]
 }
 
 fn range<const N: usize>(values: &[[f64; N]; N]) -> (f64, f64) {
