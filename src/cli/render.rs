@@ -43,15 +43,17 @@ fn render_frame(file: &SceneFile, arguments: &RenderArguments) -> Result<(Frame,
     let mut session = Session::prepare(file, arguments.settings.seed, None)?;
     let progress = Progress::new(arguments.budget);
     let start = ProcessTime::now();
-    while session.advance(Cancel::NEVER).is_some() && !is_spent(&arguments.budget, &session) {
+    let mut last = advance(&mut session);
+    while !is_spent(&arguments.budget, &session, last) {
         progress.show(&session.stats());
+        last = advance(&mut session);
     }
     let cpu_seconds = start.elapsed().as_secs_f64();
     Ok((session.frame(0), cpu_seconds))
 }
 
-/// Whether the rendering is over. Time is up when the next iteration would probably end too late.
-fn is_spent(budget: &Budget, session: &Session) -> bool {
+/// Whether the rendering is over, when the last iteration took this many seconds. Time is up when the next iteration would probably end too late.
+fn is_spent(budget: &Budget, session: &Session, last: f64) -> bool {
     let iterations = session.iterations();
     if let Some(limit) = budget.iterations {
         return iterations >= limit;
@@ -60,12 +62,15 @@ fn is_spent(budget: &Budget, session: &Session) -> bool {
         // A black picture never has an estimate, and no error either.
         return iterations >= 2 && session.stats().error_estimate.is_none_or(|estimate| estimate <= limit);
     }
-    is_last_before(budget.seconds.unwrap_or(DEFAULT_SECONDS), session)
+    session.seconds() + last > budget.seconds.unwrap_or(DEFAULT_SECONDS)
 }
 
-/// Whether one more iteration would probably end after this many seconds.
-pub(super) fn is_last_before(seconds: f64, session: &Session) -> bool {
-    session.seconds() * (1.0 + 1.0 / session.iterations() as f64) > seconds
+/// Renders one more iteration; the seconds that it took.
+pub(super) fn advance(session: &mut Session) -> f64 {
+    let before = session.seconds();
+    // Nobody cancels: there always is a result.
+    session.advance(Cancel::NEVER);
+    session.seconds() - before
 }
 
 /// What the name of the output asks for.

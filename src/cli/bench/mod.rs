@@ -6,14 +6,13 @@ mod table;
 use super::{
     CliError,
     args::BenchArguments,
-    render::{is_last_before, needs_folder, pool},
+    render::{advance, needs_folder, pool},
 };
 use crate::{
     engine::Session,
     file::write_whole,
     film::{LinearImage, Mask, compare, read_exr},
     scene::SceneFile,
-    transport::Cancel,
 };
 use measurement::Measurement;
 use std::io::{Write, stdout};
@@ -61,9 +60,10 @@ fn measure(
     rows: &mut Vec<Measurement>,
 ) -> Result<(), CliError> {
     let mut session = Session::prepare(file, seed, None)?;
+    let mut last = advance(&mut session);
     for mark in marks {
-        while session.iterations() == 0 || !is_last_before(*mark, &session) {
-            session.advance(Cancel::NEVER);
+        while session.seconds() + last <= *mark {
+            last = advance(&mut session);
         }
         let frame = session.frame(0);
         let errors = compare(&frame.image, truth.reference, truth.mask)?;
