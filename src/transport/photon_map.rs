@@ -7,9 +7,10 @@ use super::photon::{PackedDirection, Photon};
 use crate::math::Rgb;
 use glam::Vec3;
 use rayon::prelude::*;
+use wide::{CmpLe, CmpLt, f32x8, u32x8};
 
 /// Photons in a leaf at most, unless they are in the same place.
-const LEAF_SIZE: usize = 16;
+const LEAF_SIZE: usize = 32;
 /// Bits of a Morton code: 11 for x, 11 for y, 10 for z.
 const DIGIT_BITS: u32 = 11;
 
@@ -127,35 +128,33 @@ impl PhotonMap {
     /// Sum of flux times the Epanechnikov kernel `1 - d^2 / r^2` over the photons of the disc.
     #[inline(always)]
     pub(super) fn sum_flux(&self, query: &Query) -> Rgb {
-        let mut sums = [[0.0f32; LANES]; 3];
+        let mut sums = [f32x8::ZERO; 3];
+        let wide = WideQuery::new(query);
         let mut leaves = self.leaves(query);
         while let Some((start, end)) = leaves.next() {
-            let mut first = start;
-            while first < end {
-                self.accumulate(query, first, end, &mut sums);
-                first += LANES;
+            for first in (start..end).step_by(LANES) {
+                self.accumulate(&wide, first, end, &mut sums);
             }
         }
-        Rgb::from_array(sums.map(|lanes| lanes.iter().sum()))
+        Rgb::from_array(sums.map(|lanes| lanes.reduce_add()))
     }
 
     /// Adds up to [`LANES`] photons, those before `end`, to as many partial sums; without branches.
     #[inline(always)]
-    fn accumulate(&self, query: &Query, first: usize, end: usize, sums: &mut [[f32; LANES]; 3]) {
-        let lanes = first..first + LANES;
-        let (x, y, z) = (&self.x[lanes.clone()], &self.y[lanes.clone()], &self.z[lanes.clone()]);
-        let (tag, left) = (&self.tag[lanes.clone()], (end - first) as u32);
-        let inverse = 1.0 / (query.radius * query.radius);
-        let mut weights = [0.0f32; LANES];
-        for k in 0..LANES {
-            let weight = kernel_weight(query, inverse, Vec3::new(x[k], y[k], z[k]), tag[k]);
-            weights[k] = if (k as u32) < left { weight } else { 0.0 };
-        }
-        let (red, green, blue) = (&self.red[lanes.clone()], &self.green[lanes.clone()], &self.blue[lanes]);
-        for k in 0..LANES {
-            sums[0][k] += weights[k] * red[k];
-            sums[1][k] += weights[k] * green[k];
-            sums[2][k] += weights[k] * blue[k];
+    fn accumulate(&self, query: &WideQuery, first: usize, end: usize, sums: &mut [f32x8; 3]) {
+        let column = |values: &[f32]| values[first..].first_chunk().map_or(f32x8::ZERO, |lanes| f32x8::new(*lanes));
+        let dx = column(&self.x) - query.x;
+        let dy = column(&self.y) - query.y;
+        let dz = column(&self.z) - query.z;
+        let kernel = f32x8::ONE - (dx * dx + dy * dy + dz * dz) * query.inverse_radius_sq;
+        let height = (dx * query.normal_x + dy * query.normal_y + dz * query.normal_z).abs();
+        let tag = self.tag[first..].first_chunk().map_or(u32x8::ZERO, |lanes| u32x8::new(*lanes)) - query.tag_start;
+        let tagged = tag.simd_le(query.last_tag);
+        let left = query.lane.simd_lt(f32x8::splat((end - first) as f32));
+        let counts = height.simd_le(query.slab) & left & f32x8::from_bits(tagged);
+        let weight = kernel.max(f32x8::ZERO) & counts;
+        for (sum, color) in sums.iter_mut().zip([&self.red, &self.green, &self.blue]) {
+            *sum += weight * column(color);
         }
     }
 
@@ -214,6 +213,42 @@ impl Leaves<'_> {
 
 /// Photons that one pass of vector instructions handles.
 const LANES: usize = 8;
+
+/// A query with its numbers in every lane.
+struct WideQuery {
+    x: f32x8,
+    y: f32x8,
+    z: f32x8,
+    normal_x: f32x8,
+    normal_y: f32x8,
+    normal_z: f32x8,
+    inverse_radius_sq: f32x8,
+    slab: f32x8,
+    tag_start: u32x8,
+    last_tag: u32x8,
+    /// The lane's number.
+    lane: f32x8,
+}
+
+impl WideQuery {
+    #[inline(always)]
+    fn new(query: &Query) -> Self {
+        let splat = f32x8::splat;
+        Self {
+            x: splat(query.position.x),
+            y: splat(query.position.y),
+            z: splat(query.position.z),
+            normal_x: splat(query.normal.x),
+            normal_y: splat(query.normal.y),
+            normal_z: splat(query.normal.z),
+            inverse_radius_sq: splat(1.0 / (query.radius * query.radius)),
+            slab: splat(Query::SLAB * query.radius),
+            tag_start: u32x8::splat(query.tag_start),
+            last_tag: u32x8::splat(query.tag_span - 1),
+            lane: f32x8::new([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]),
+        }
+    }
+}
 
 /// `1 - d^2 / r^2` inside the disc and for the right tag, else 0; without branches.
 #[inline(always)]

@@ -11,12 +11,12 @@ const GROWING_ITERATIONS: u32 = 3;
 const ALPHA: f64 = 2.0 / 3.0;
 
 /// Paths in iteration `i` (from 1), parts of a full iteration: also its weight in the mean.
-pub fn size(i: u64) -> f64 {
+pub(super) fn size(i: u64) -> f64 {
     FIRST_SIZE * (1u64 << i.saturating_sub(1).min(u64::from(GROWING_ITERATIONS))) as f64
 }
 
 /// Paths in all iterations before `i`, in full iterations.
-pub fn size_before(i: u64) -> f64 {
+pub(super) fn size_before(i: u64) -> f64 {
     let before = i.saturating_sub(1);
     let growing = before.min(u64::from(GROWING_ITERATIONS));
     FIRST_SIZE * ((1u64 << growing) - 1) as f64 + (before - growing) as f64
@@ -24,7 +24,7 @@ pub fn size_before(i: u64) -> f64 {
 
 /// The factor by which radii shrink from a full first iteration to iteration `i`: the schedule by the number of photons
 /// so far \[KZ11\], in the power form, which needs no recursion.
-pub fn shrink(i: u64) -> f64 {
+pub(super) fn shrink(i: u64) -> f64 {
     size_before(i.max(1) + 1).powf(-0.5 * (1.0 - ALPHA))
 }
 
