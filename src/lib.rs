@@ -1,4 +1,6 @@
 //! patchlight shows what light does with a curved surface.
+#[cfg(feature = "gui")]
+pub mod app;
 pub mod cli;
 pub mod engine;
 pub mod file;

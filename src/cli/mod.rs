@@ -1,4 +1,4 @@
-//! The command line: the window's door, and everything that needs no window.
+//! The command line: everything that needs no window.
 
 mod args;
 mod bench;
@@ -9,17 +9,21 @@ mod intersect;
 mod progress;
 mod render;
 mod statistics;
-mod window;
 
 pub use args::Arguments;
 pub use error::CliError;
 
+use crate::scene::SceneFile;
 use args::Command;
+use std::path::Path;
 
-/// Does what the command line asks for.
-pub fn run(arguments: Arguments) -> Result<(), CliError> {
+/// Does what the command line asks for. Without a command that is `open_window`, which belongs to whoever has one.
+pub fn run(arguments: Arguments, open_window: impl FnOnce(SceneFile) -> Result<(), CliError>) -> Result<(), CliError> {
     match arguments.command {
-        None => window::open(arguments.scene.as_deref()),
+        None => {
+            let scene = arguments.scene.as_deref().unwrap_or(Path::new("report"));
+            open_window(SceneFile::find(scene)?)
+        }
         Some(Command::Render(render)) => render::render(&render),
         Some(Command::Bench(bench)) => bench::bench(&bench),
         Some(Command::Check(check)) => check::check(&check),

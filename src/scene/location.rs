@@ -61,6 +61,17 @@ impl Location {
         parts.join("/")
     }
 
+    /// What names the scene on a command line, in quotes where a shell needs them.
+    pub fn argument(&self) -> String {
+        let name = match self {
+            Self::Disk(path) => path.display().to_string(),
+            Self::BuiltIn(name) => name.clone(),
+            Self::Unsaved => "SCENE".to_owned(),
+        };
+        let plain = name.chars().all(|c| c.is_alphanumeric() || "-_./".contains(c));
+        if plain { name } else { format!("'{}'", name.replace('\'', r"'\''")) }
+    }
+
     /// For messages and titles: the path as given, or the example's name.
     pub fn label(&self) -> String {
         match self {

@@ -1,0 +1,58 @@
+//! Everything that panels, canvas, menus and keys ask for. [`Editor::apply`](super::editor::Editor) alone does it.
+
+use super::action::Action;
+use super::edit::Edit;
+use super::selection::Selection;
+use egui::ThemePreference;
+use std::path::PathBuf;
+
+/// A request to the editor.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum AppCommand {
+    /// Something without parameters.
+    Do(Action),
+    /// Change the scene.
+    Edit(Edit),
+    /// Talk about something else.
+    Select(Selection),
+    /// Choose an image file for a new texture.
+    AddTexture,
+    /// Give up the drag that goes on.
+    CancelDrag,
+    /// Go on to something for which the present scene is given up; asks where there is something to lose.
+    GoTo(Next),
+    /// The answer to that question.
+    Answer(Answer),
+    /// The path that was typed in place of a file dialog.
+    PathEntered(PathBuf),
+    /// The file dialog hangs or cannot be had: type the path.
+    TypePath,
+    /// Close the dialog that is shown.
+    CloseDialog,
+    /// Light or dark.
+    Theme(ThemePreference),
+}
+
+/// What gives up the present scene.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Next {
+    /// An empty scene.
+    New,
+    /// The scene in this file.
+    Open(PathBuf),
+    /// A scene that the program carries with it.
+    Example(&'static str),
+    /// The end.
+    Quit,
+}
+
+/// To "Save the changes?".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Answer {
+    /// Save, then go on.
+    Save,
+    /// Go on without.
+    Discard,
+    /// Stay.
+    Cancel,
+}

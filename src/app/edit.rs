@@ -1,0 +1,191 @@
+//! Every change of a scene that the window knows, applied in one place.
+
+use super::handles::Handle;
+use super::selection::Item;
+use crate::scene::{Camera, Color, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Texture};
+use glam::DVec3;
+
+/// A change of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Edit {
+    /// The scene's name.
+    Name(String),
+    /// The eye.
+    Camera(Camera),
+    /// Size and display.
+    Film(Film),
+    /// Light transport.
+    Render(Render),
+    /// The object in this place becomes this.
+    Object(usize, Object),
+    /// The material in this place becomes this; objects follow a new name.
+    Material(usize, Material),
+    /// The light in this place becomes this.
+    Light(usize, Light),
+    /// The texture in this place becomes this; materials follow a new name.
+    Texture(usize, Texture),
+    /// Handles move by a world vector.
+    Move(Vec<Handle>, DVec3),
+    /// A new object at the end of the list.
+    AddObject(Object),
+    /// A new material at the end of the list.
+    AddMaterial(Material),
+    /// A new light at the end of the list.
+    AddLight(Light),
+    /// A new texture at the end of the list.
+    AddTexture(Texture),
+    /// An object, material or light goes.
+    Remove(Item),
+}
+
+/// Edits of one gesture with equal keys are one step to undo.
+pub(crate) type EditKey = (&'static str, usize);
+
+impl Edit {
+    /// What it does, to follow the word "Undo", and on what.
+    pub(crate) fn key(&self) -> EditKey {
+        match self {
+            Self::Name(_) => ("rename scene", 0),
+            Self::Camera(_) => ("camera", 0),
+            Self::Film(_) => ("picture settings", 0),
+            Self::Render(_) => ("render settings", 0),
+            Self::Object(index, _) => ("object", *index),
+            Self::Material(index, _) => ("material", *index),
+            Self::Light(index, _) => ("light", *index),
+            Self::Texture(index, _) => ("texture", *index),
+            Self::Move(handles, _) => match handles.first() {
+                Some(Handle::Point { object, .. }) => ("move control point", *object),
+                Some(Handle::Object(object)) => ("move object", *object),
+                Some(Handle::Light(light)) => ("move light", *light),
+                None => ("move", 0),
+            },
+            Self::AddObject(_) => ("add object", 0),
+            Self::AddMaterial(_) => ("add material", 0),
+            Self::AddLight(_) => ("add light", 0),
+            Self::AddTexture(_) => ("add texture", 0),
+            Self::Remove(_) => ("delete", 0),
+        }
+    }
+
+    /// Changes the scene. What names a place that is not there does nothing.
+    pub(crate) fn apply(self, scene: &mut Scene) {
+        match self {
+            Self::Name(name) => scene.name = name,
+            Self::Camera(camera) => scene.camera = camera,
+            Self::Film(film) => scene.film = film,
+            Self::Render(render) => scene.render = render,
+            Self::Object(index, object) => replace(&mut scene.objects, index, object),
+            Self::Material(index, material) => replace_material(scene, index, material),
+            Self::Light(index, light) => replace(&mut scene.lights, index, light),
+            Self::Texture(index, texture) => replace_texture(scene, index, texture),
+            Self::Move(handles, by) => handles.into_iter().for_each(|handle| handle.translate(scene, by)),
+            Self::AddObject(object) => scene.objects.push(object),
+            Self::AddMaterial(material) => scene.materials.push(material),
+            Self::AddLight(light) => scene.lights.push(light),
+            Self::AddTexture(texture) => scene.textures.push(texture),
+            Self::Remove(item) => remove(scene, item),
+        }
+    }
+}
+
+fn replace<T>(list: &mut [T], index: usize, new: T) {
+    if let Some(old) = list.get_mut(index) {
+        *old = new;
+    }
+}
+
+fn replace_material(scene: &mut Scene, index: usize, material: Material) {
+    let Some(old) = scene.materials.get(index) else { return };
+    for object in scene.objects.iter_mut().filter(|object| object.material == old.name) {
+        object.material.clone_from(&material.name);
+    }
+    replace(&mut scene.materials, index, material);
+}
+
+fn replace_texture(scene: &mut Scene, index: usize, texture: Texture) {
+    let Some(old) = scene.textures.get(index) else { return };
+    for used in scene.materials.iter_mut().flat_map(texture_names).filter(|used| **used == old.name) {
+        used.clone_from(&texture.name);
+    }
+    replace(&mut scene.textures, index, texture);
+}
+
+/// Every place in a material that names a texture.
+fn texture_names(material: &mut Material) -> Vec<&mut String> {
+    let colors = match &mut material.model {
+        MaterialModel::Diffuse { albedo } => vec![albedo],
+        MaterialModel::Phong { albedo, specular, .. } => vec![albedo, specular],
+        MaterialModel::Polished { albedo, reflectance } => vec![albedo, reflectance],
+        MaterialModel::Mirror { reflectance } => vec![reflectance],
+        MaterialModel::Glass { tint, .. } => vec![tint],
+    };
+    let of_colors = colors.into_iter().filter_map(|color| match color {
+        Color::Texture(used) => Some(&mut used.texture),
+        Color::Constant(_) => None,
+    });
+    let of_relief = material.relief.as_mut().map(|relief| match relief {
+        Relief::Normal { map, .. } | Relief::Height { map, .. } => &mut map.texture,
+    });
+    of_colors.chain(of_relief).collect()
+}
+
+fn remove(scene: &mut Scene, item: Item) {
+    match item {
+        Item::Object(index) if index < scene.objects.len() => drop(scene.objects.remove(index)),
+        Item::Material(index) if index < scene.materials.len() => drop(scene.materials.remove(index)),
+        Item::Light(index) if index < scene.lights.len() => drop(scene.lights.remove(index)),
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Rgb;
+    use crate::scene::{Shape, TextureUse};
+    use glam::DVec2;
+
+    fn scene() -> Scene {
+        let planks = TextureUse { texture: "planks".into(), scale: DVec2::ONE };
+        let model = MaterialModel::Phong {
+            albedo: Color::Texture(planks.clone()),
+            specular: Color::Constant(Rgb::ZERO),
+            exponent: 1.0,
+        };
+        let relief = Some(Relief::Height { map: planks, depth: 1.0 });
+        let shape = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
+        Scene {
+            textures: vec![Texture { name: "planks".into(), file: "a.png".into(), encoding: Default::default() }],
+            materials: vec![Material { name: "floor".into(), model, relief }],
+            objects: vec![Object { name: "ball".into(), material: "floor".into(), shape }],
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn objects_follow_a_renamed_material() {
+        let mut scene = scene();
+        let renamed = Material { name: "ground".into(), ..scene.materials[0].clone() };
+        Edit::Material(0, renamed).apply(&mut scene);
+        assert_eq!(scene.objects[0].material, "ground");
+    }
+
+    #[test]
+    fn materials_follow_a_renamed_texture() {
+        let mut scene = scene();
+        let renamed = Texture { name: "wood".into(), ..scene.textures[0].clone() };
+        Edit::Texture(0, renamed).apply(&mut scene);
+        let names: Vec<_> = texture_names(&mut scene.materials[0]).into_iter().map(|name| name.clone()).collect();
+        assert_eq!(names, ["wood", "wood"], "in the colour and in the relief");
+    }
+
+    #[test]
+    fn a_place_that_is_not_there_changes_nothing() {
+        let mut changed = scene();
+        let ball = changed.objects[0].clone();
+        for edit in [Edit::Object(7, ball), Edit::Remove(Item::Light(3)), Edit::Remove(Item::Camera)] {
+            edit.apply(&mut changed);
+            assert_eq!(changed, scene());
+        }
+    }
+}

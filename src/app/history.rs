@@ -1,0 +1,146 @@
+//! Undo and redo over whole states, where the steps of one gesture are one.
+
+/// States kept at most; a scene shares its control points with its copies, so a state is small.
+const CAPACITY: usize = 500;
+
+/// The states before and after the present one.
+#[derive(Debug)]
+pub(crate) struct History<State, Key> {
+    before: Vec<(State, Key)>,
+    after: Vec<(State, Key)>,
+    /// The gesture that goes on, if any: its later steps add no state.
+    gesture: Option<Key>,
+}
+
+impl<State, Key> Default for History<State, Key> {
+    fn default() -> Self {
+        Self { before: Vec::new(), after: Vec::new(), gesture: None }
+    }
+}
+
+impl<State, Key: Copy + PartialEq> History<State, Key> {
+    /// To be called before a change: keeps `present` unless the change goes on with the gesture of the same key.
+    pub(crate) fn record(&mut self, present: State, key: Key) {
+        self.after.clear();
+        if self.gesture == Some(key) {
+            return;
+        }
+        self.gesture = Some(key);
+        self.before.push((present, key));
+        if self.before.len() > CAPACITY {
+            self.before.remove(0);
+        }
+    }
+
+    /// The gesture is over: the next change is a step of its own.
+    pub(crate) fn end_gesture(&mut self) {
+        self.gesture = None;
+    }
+
+    /// Takes back the gesture that goes on as if it had never been; gives `present` back where there is none.
+    pub(crate) fn abandon_gesture(&mut self, present: State) -> Result<State, State> {
+        match self.gesture.take().and_then(|_| self.before.pop()) {
+            Some((state, _)) => Ok(state),
+            None => Err(present),
+        }
+    }
+
+    /// What `undo` takes back.
+    pub(crate) fn undoable(&self) -> Option<Key> {
+        self.before.last().map(|(_, key)| *key)
+    }
+
+    /// What `redo` does again.
+    pub(crate) fn redoable(&self) -> Option<Key> {
+        self.after.last().map(|(_, key)| *key)
+    }
+
+    /// Gives `present` for the state before it; gives it back where there is none.
+    pub(crate) fn undo(&mut self, present: State) -> Result<State, State> {
+        self.gesture = None;
+        exchange(&mut self.before, &mut self.after, present)
+    }
+
+    /// Gives `present` for the state after it; gives it back where there is none.
+    pub(crate) fn redo(&mut self, present: State) -> Result<State, State> {
+        self.gesture = None;
+        exchange(&mut self.after, &mut self.before, present)
+    }
+}
+
+fn exchange<State, Key>(
+    from: &mut Vec<(State, Key)>,
+    to: &mut Vec<(State, Key)>,
+    present: State,
+) -> Result<State, State> {
+    match from.pop() {
+        Some((state, key)) => {
+            to.push((present, key));
+            Ok(state)
+        }
+        None => Err(present),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drag_is_one_step() {
+        let mut history = History::default();
+        for state in 0..10 {
+            history.record(state, "drag");
+        }
+        assert_eq!(history.undo(10), Ok(0));
+        assert_eq!(history.undo(0), Err(0), "nothing is left");
+        assert_eq!(history.redo(0), Ok(10));
+    }
+
+    #[test]
+    fn two_drags_are_two_steps() {
+        let mut history = History::default();
+        history.record(0, "drag");
+        history.end_gesture();
+        history.record(1, "drag");
+        assert_eq!(history.undo(2), Ok(1));
+        assert_eq!(history.undo(1), Ok(0));
+    }
+
+    #[test]
+    fn another_key_is_another_step() {
+        let mut history = History::default();
+        history.record(0, "drag");
+        history.record(1, "colour");
+        assert_eq!((history.undoable(), history.undo(2)), (Some("colour"), Ok(1)));
+        assert_eq!((history.redoable(), history.undoable()), (Some("colour"), Some("drag")));
+    }
+
+    #[test]
+    fn a_change_after_undo_takes_the_way_forward() {
+        let mut history = History::default();
+        history.record(0, "a");
+        assert_eq!(history.undo(1), Ok(0));
+        history.record(0, "b");
+        assert_eq!(history.redo(5), Err(5));
+    }
+
+    #[test]
+    fn an_abandoned_gesture_leaves_no_trace() {
+        let mut history = History::default();
+        history.record(0, "drag");
+        history.record(1, "drag");
+        assert_eq!(history.abandon_gesture(2), Ok(0));
+        assert_eq!(history.abandon_gesture(0), Err(0), "there is no gesture any more");
+        assert_eq!((history.undoable(), history.redoable()), (None, None));
+    }
+
+    #[test]
+    fn the_oldest_states_go_first() {
+        let mut history = History::default();
+        for state in 0..CAPACITY + 5 {
+            history.record(state, state);
+        }
+        assert_eq!((history.before.len(), history.before.first()), (CAPACITY, Some(&(5, 5))));
+    }
+}

@@ -1,0 +1,107 @@
+//! The menu bar, with the buttons that are needed all the time.
+
+use super::action::Action;
+use super::command::{AppCommand, Next};
+use super::editor::Editor;
+use crate::engine::Status;
+use crate::scene::built_in_scenes;
+use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
+
+/// Menus on the left, buttons on the right.
+pub(crate) fn menu_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
+    MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| file_ui(ui, commands));
+        ui.menu_button("Edit", |ui| edit_ui(ui, editor, commands));
+        ui.menu_button("View", |ui| view_ui(ui, editor, commands));
+        ui.menu_button("Render", |ui| {
+            let pause = if is_paused(editor) { "Resume" } else { "Pause" };
+            item_ui(ui, Action::TogglePause, pause, true, commands);
+            for action in [Action::Restart, Action::Brighter, Action::Darker] {
+                item_ui(ui, action, action.label(), true, commands);
+            }
+        });
+        ui.menu_button("Help", |ui| item_ui(ui, Action::Help, Action::Help.label(), true, commands));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| buttons_ui(ui, editor, commands));
+    });
+}
+
+fn is_paused(editor: &Editor) -> bool {
+    matches!(editor.rendering.status(), Status::Paused)
+}
+
+fn file_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+    for action in [Action::New, Action::Open] {
+        item_ui(ui, action, action.label(), true, commands);
+    }
+    ui.menu_button("Examples", |ui| {
+        for example in built_in_scenes() {
+            if ui.button(example.title).clicked() {
+                commands.push(AppCommand::GoTo(Next::Example(example.name)));
+            }
+        }
+    });
+    ui.separator();
+    for action in [Action::Save, Action::SaveAs, Action::Export] {
+        item_ui(ui, action, action.label(), true, commands);
+    }
+    ui.separator();
+    item_ui(ui, Action::Quit, Action::Quit.label(), true, commands);
+}
+
+fn edit_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
+    let document = &editor.document;
+    for (action, what) in [(Action::Undo, document.undoable()), (Action::Redo, document.redoable())] {
+        let label = format!("{} {}", action.label(), what.unwrap_or_default());
+        item_ui(ui, action, label.trim_end(), what.is_some(), commands);
+    }
+    ui.separator();
+    for action in [Action::Duplicate, Action::Delete] {
+        item_ui(ui, action, action.label(), true, commands);
+    }
+}
+
+fn view_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
+    for action in [Action::Fit, Action::OneToOne, Action::ZoomIn, Action::ZoomOut] {
+        item_ui(ui, action, action.label(), true, commands);
+    }
+    ui.separator();
+    for (action, on) in
+        [(Action::ToggleHandles, editor.canvas.show_handles), (Action::TogglePanels, editor.show_panels)]
+    {
+        let mut on = on;
+        let text = format!("{}  ({})", action.label(), action.shortcut(ui.ctx()));
+        if ui.checkbox(&mut on, text).clicked() {
+            commands.push(AppCommand::Do(action));
+        }
+    }
+    item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
+    ui.separator();
+    let current = ui.ctx().options(|options| options.theme_preference);
+    for (theme, label) in
+        [(ThemePreference::Dark, "Dark"), (ThemePreference::Light, "Light"), (ThemePreference::System, "As the system")]
+    {
+        if ui.radio(current == theme, label).clicked() {
+            commands.push(AppCommand::Theme(theme));
+        }
+    }
+}
+
+fn item_ui(ui: &mut Ui, action: Action, label: &str, enabled: bool, commands: &mut Vec<AppCommand>) {
+    let button = Button::new(label).shortcut_text(action.shortcut(ui.ctx()));
+    if ui.add_enabled(enabled, button).clicked() {
+        commands.push(AppCommand::Do(action));
+    }
+}
+
+fn buttons_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
+    let pause = if is_paused(editor) { "▶ Resume" } else { "⏸ Pause" };
+    // From right to left.
+    for (action, label) in
+        [(Action::OneToOne, "1:1"), (Action::Fit, "Fit"), (Action::Restart, "↺ Restart"), (Action::TogglePause, pause)]
+    {
+        let tip = format!("{} ({})", action.label(), action.shortcut(ui.ctx()));
+        if ui.button(label).on_hover_text(tip).clicked() {
+            commands.push(AppCommand::Do(action));
+        }
+    }
+}

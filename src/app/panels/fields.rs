@@ -1,0 +1,185 @@
+//! Fields for names, numbers, vectors and colours, each with a name that assistive technology and tests can find it by.
+
+use crate::app::theme;
+use crate::math::Rgb;
+use egui::{ComboBox, DragValue, Grid, RichText, TextEdit, Ui};
+use glam::DVec3;
+use std::ops::RangeInclusive;
+
+/// Room for a sign and seven digits, screen points.
+const FIELD_SIZE: [f32; 2] = [66.0, 20.0];
+
+/// How a number is entered.
+#[derive(Clone, Debug)]
+pub(super) struct Number {
+    /// Shown after it.
+    pub(super) unit: &'static str,
+    /// Change for one screen point of dragging.
+    pub(super) speed: f64,
+    pub(super) range: RangeInclusive<f64>,
+    pub(super) tip: &'static str,
+}
+
+impl Number {
+    /// Any finite number.
+    pub(super) fn any(speed: f64) -> Self {
+        // Far beyond every scene, and its square is finite.
+        Self { unit: "", speed, range: -1e12..=1e12, tip: "" }
+    }
+
+    /// A number that cannot be negative.
+    pub(super) fn positive(speed: f64) -> Self {
+        Self { range: 0.0..=1e12, ..Self::any(speed) }
+    }
+
+    pub(super) fn unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+
+    pub(super) fn within(self, range: RangeInclusive<f64>) -> Self {
+        Self { range, ..self }
+    }
+
+    pub(super) fn tip(self, tip: &'static str) -> Self {
+        Self { tip, ..self }
+    }
+}
+
+/// Rows of a label and a field.
+pub(super) fn rows(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
+    Grid::new(id).num_columns(2).spacing([8.0, 5.0]).show(ui, content);
+}
+
+/// A number without a label; `name` is for assistive technology.
+pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
+    let field = DragValue::new(value)
+        .speed(spec.speed)
+        .range(spec.range.clone())
+        // A number from the file stays as it is until it is edited.
+        .clamp_existing_to_range(false)
+        .max_decimals(6)
+        .suffix(spec.unit)
+        .update_while_editing(false);
+    // Of one width for all numbers, or the panel would grow and the picture move while a number is dragged.
+    let response = ui.add_sized(FIELD_SIZE, field.clip_text(true)).accessible_name(name);
+    if !spec.tip.is_empty() {
+        response.on_hover_text(spec.tip);
+    }
+}
+
+/// A row with a number.
+pub(super) fn number_row(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
+    ui.label(name);
+    number(ui, name, value, spec);
+    ui.end_row();
+}
+
+/// A row with a vector.
+pub(super) fn vector_row(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Number) {
+    ui.label(name);
+    ui.horizontal(|ui| vector(ui, name, value, spec));
+    ui.end_row();
+}
+
+/// Three numbers, with the colours of the axes.
+pub(super) fn vector(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Number) {
+    let axes = theme::palette(ui.visuals().dark_mode).axes;
+    ui.spacing_mut().item_spacing.x = 3.0;
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        ui.label(RichText::new(axis).color(axes[k]));
+        number(ui, &format!("{name} {axis}"), &mut value[k], spec);
+    }
+}
+
+/// A row with a colour: reflectance, one part of the light a channel.
+pub(super) fn color_row(ui: &mut Ui, name: &str, value: &mut Rgb) {
+    ui.label(name);
+    ui.horizontal(|ui| color(ui, name, value, &Number::any(0.005).within(0.0..=1.0)));
+    ui.end_row();
+}
+
+/// A picker and three numbers, linear RGB.
+pub(super) fn color(ui: &mut Ui, name: &str, value: &mut Rgb, spec: &Number) {
+    ui.spacing_mut().item_spacing.x = 3.0;
+    let mut picked = value.to_array();
+    let response = ui.color_edit_button_rgb(&mut picked).accessible_name(format!("{name} colour"));
+    if response.on_hover_text("Pick a colour (linear RGB)").changed() {
+        *value = Rgb::from_array(picked);
+    }
+    for (k, channel) in ["red", "green", "blue"].into_iter().enumerate() {
+        let mut component = f64::from(value[k]);
+        number(ui, &format!("{name} {channel}"), &mut component, spec);
+        // Through the decimal form: 0.1 typed is 0.1 in the file, though f32 and f64 differ.
+        if component as f32 != value[k] {
+            value[k] = component as f32;
+        }
+    }
+}
+
+/// A row with a light's strength: a colour whose largest channel is 1, and a factor.
+pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'static str) {
+    let peak = value.max_element();
+    ui.label(name);
+    let mut factor = f64::from(peak);
+    let speed = (0.01 * factor).max(0.001);
+    number(ui, name, &mut factor, &Number::positive(speed).unit(unit).tip("The strongest channel"));
+    ui.end_row();
+    let mut hue = if peak > 0.0 { *value / peak } else { Rgb::ONE };
+    let before = hue;
+    color_row(ui, "Colour", &mut hue);
+    if hue != before || factor as f32 != peak {
+        *value = hue * factor as f32;
+    }
+}
+
+/// A row with a text that counts when Enter or another field ends it, so that no half-typed name is ever used.
+pub(super) fn text_row(ui: &mut Ui, name: &str, value: &mut String, owner: impl std::fmt::Debug) {
+    ui.label(name);
+    let id = ui.make_persistent_id(format!("{name} {owner:?}"));
+    let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| value.clone());
+    let response = ui.add(TextEdit::singleline(&mut text).id(id).desired_width(f32::INFINITY)).accessible_name(name);
+    if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+    } else {
+        if response.lost_focus() && !ui.input(|input| input.key_pressed(egui::Key::Escape)) && !text.trim().is_empty() {
+            *value = text.trim().to_owned();
+        }
+        ui.data_mut(|data| data.remove::<String>(id));
+    }
+    ui.end_row();
+}
+
+/// A row with one name out of several.
+pub(super) fn choice_row<'a>(ui: &mut Ui, name: &str, value: &mut String, choices: impl Iterator<Item = &'a str>) {
+    ui.label(name);
+    choice(ui, name, value, choices);
+    ui.end_row();
+}
+
+/// One name out of several.
+pub(super) fn choice<'a>(ui: &mut Ui, name: &str, value: &mut String, choices: impl Iterator<Item = &'a str>) {
+    let combo = ComboBox::from_id_salt(name).selected_text(value.as_str()).width(150.0);
+    let response = combo.show_ui(ui, |ui| {
+        for choice in choices {
+            ui.selectable_value(value, choice.to_owned(), choice);
+        }
+    });
+    response.response.accessible_name(name);
+}
+
+/// A row with one kind out of several; `Some` when the user chose another.
+pub(super) fn kind_row<T: Copy>(ui: &mut Ui, name: &str, current: &str, kinds: &[(&'static str, T)]) -> Option<T> {
+    ui.label(name);
+    let mut chosen = None;
+    let combo = ComboBox::from_id_salt(name).selected_text(current).width(150.0);
+    let response = combo.show_ui(ui, |ui| {
+        for (label, kind) in kinds {
+            if ui.selectable_label(*label == current, *label).clicked() && *label != current {
+                chosen = Some(*kind);
+            }
+        }
+    });
+    response.response.accessible_name(name);
+    ui.end_row();
+    chosen
+}

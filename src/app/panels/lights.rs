@@ -1,0 +1,49 @@
+//! The numbers of a light.
+
+use super::fields::{Number, kind_row, number_row, rows, strength_row, text_row, vector_row};
+use super::outline::emitter_kind;
+use super::properties::length_speed;
+use crate::app::command::AppCommand;
+use crate::app::document::Document;
+use crate::app::edit::Edit;
+use crate::app::new_items;
+use crate::scene::{Emitter, Light};
+use egui::Ui;
+
+/// The light's name, kind, place and strength.
+pub(super) fn light_ui(ui: &mut Ui, document: &Document, index: usize, light: &Light, commands: &mut Vec<AppCommand>) {
+    ui.strong("Light");
+    let mut edited = light.clone();
+    rows(ui, "light", |ui| {
+        text_row(ui, "Name", &mut edited.name, ("light", index, &light.name));
+        let kinds = new_items::EMITTER_KINDS.map(|kind| (kind, kind));
+        if let Some(kind) = kind_row(ui, "Type", emitter_kind(&light.emitter), &kinds) {
+            edited.emitter = new_items::emitter_like(&light.emitter, kind);
+        }
+        emitter_ui(ui, &mut edited.emitter, length_speed(document));
+    });
+    if edited != *light {
+        commands.push(AppCommand::Edit(Edit::Light(index, edited)));
+    }
+}
+
+fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, speed: f64) {
+    let length = Number::any(speed);
+    match emitter {
+        Emitter::Point { position, intensity } => {
+            vector_row(ui, "Position", position, &length);
+            strength_row(ui, "Intensity", intensity, " W/sr");
+        }
+        Emitter::Sphere { center, radius, radiance } => {
+            vector_row(ui, "Centre", center, &length);
+            number_row(ui, "Radius", radius, &Number::positive(speed));
+            strength_row(ui, "Radiance", radiance, " W/sr/m²");
+        }
+        Emitter::Quad { corner, edge_u, edge_v, radiance } => {
+            vector_row(ui, "Corner", corner, &length);
+            vector_row(ui, "Edge u", edge_u, &length);
+            vector_row(ui, "Edge v", edge_v, &length);
+            strength_row(ui, "Radiance", radiance, " W/sr/m²");
+        }
+    }
+}

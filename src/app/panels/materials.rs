@@ -1,0 +1,141 @@
+//! The numbers of a material.
+
+use super::fields::{Number, choice_row, color_row, kind_row, number, number_row, rows, text_row};
+use super::outline::model_kind;
+use crate::app::command::AppCommand;
+use crate::app::document::Document;
+use crate::app::edit::Edit;
+use crate::app::new_items;
+use crate::math::Rgb;
+use crate::scene::{Color, Material, MaterialModel, Relief, Scene, TextureUse};
+use egui::Ui;
+use glam::DVec2;
+
+/// Whether a material's name can be edited here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Naming {
+    /// In the material's own panel.
+    Editable,
+    /// Within an object's panel, which has a name of its own.
+    Fixed,
+}
+
+/// The material's kind and numbers, and its name where `naming` says so.
+pub(super) fn material_ui(
+    ui: &mut Ui,
+    document: &Document,
+    index: usize,
+    material: &Material,
+    naming: Naming,
+    commands: &mut Vec<AppCommand>,
+) {
+    let scene = document.scene();
+    let mut edited = material.clone();
+    rows(ui, "material", |ui| {
+        if naming == Naming::Editable {
+            text_row(ui, "Name", &mut edited.name, ("material", index, &material.name));
+        }
+        let kinds = new_items::MODEL_KINDS.map(|kind| (kind, kind));
+        if let Some(kind) = kind_row(ui, "Type", model_kind(&material.model), &kinds) {
+            edited.model = new_items::model_like(&material.model, kind);
+        }
+        model_ui(ui, &mut edited.model, scene);
+        relief_ui(ui, &mut edited.relief, scene);
+    });
+    let users = scene.objects.iter().filter(|object| object.material == material.name).count();
+    ui.weak(format!("Used by {users} object{}", if users == 1 { "" } else { "s" }));
+    if edited != *material {
+        commands.push(AppCommand::Edit(Edit::Material(index, edited)));
+    }
+}
+
+fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
+    match model {
+        MaterialModel::Diffuse { albedo } => surface_color_ui(ui, "Albedo", albedo, scene),
+        MaterialModel::Phong { albedo, specular, exponent } => {
+            surface_color_ui(ui, "Albedo", albedo, scene);
+            surface_color_ui(ui, "Specular", specular, scene);
+            let spec = Number::positive(0.5).tip("Sharpness of the highlight");
+            number_row(ui, "Exponent", exponent, &spec);
+        }
+        MaterialModel::Polished { albedo, reflectance } => {
+            surface_color_ui(ui, "Albedo", albedo, scene);
+            surface_color_ui(ui, "Reflectance", reflectance, scene);
+        }
+        MaterialModel::Mirror { reflectance } => surface_color_ui(ui, "Reflectance", reflectance, scene),
+        MaterialModel::Glass { ior, tint, absorption } => {
+            let spec = Number::positive(0.002).within(1.0..=4.0).tip("Index of refraction: water 1.33, glass 1.5");
+            number_row(ui, "Refraction", ior, &spec);
+            surface_color_ui(ui, "Tint", tint, scene);
+            ui.label("Absorption").on_hover_text("Per scene unit of the way inside");
+            ui.horizontal(|ui| super::fields::color(ui, "Absorption", absorption, &Number::positive(0.01)));
+            ui.end_row();
+        }
+    }
+}
+
+/// A colour, or a texture where the scene has any.
+fn surface_color_ui(ui: &mut Ui, name: &str, color: &mut Color, scene: &Scene) {
+    match color {
+        Color::Constant(value) => color_row(ui, name, value),
+        Color::Texture(map) => texture_ui(ui, name, map, scene),
+    }
+    if scene.textures.is_empty() {
+        return;
+    }
+    ui.label("");
+    let mut textured = matches!(color, Color::Texture(_));
+    if ui.checkbox(&mut textured, format!("{name} from a texture")).changed() {
+        *color = match (textured, scene.textures.first()) {
+            (true, Some(first)) => Color::Texture(TextureUse { texture: first.name.clone(), scale: DVec2::ONE }),
+            _ => Color::Constant(Rgb::splat(0.5)),
+        };
+    }
+    ui.end_row();
+}
+
+fn texture_ui(ui: &mut Ui, name: &str, map: &mut TextureUse, scene: &Scene) {
+    let names = scene.textures.iter().map(|texture| texture.name.as_str());
+    choice_row(ui, name, &mut map.texture, names);
+    ui.label("");
+    ui.horizontal(|ui| {
+        let spec = Number::any(0.02).tip("Repetitions along u and v");
+        ui.weak("repeat u");
+        number(ui, &format!("{name} repeat u"), &mut map.scale.x, &spec);
+        ui.weak("v");
+        number(ui, &format!("{name} repeat v"), &mut map.scale.y, &spec);
+    });
+    ui.end_row();
+}
+
+fn relief_ui(ui: &mut Ui, relief: &mut Option<Relief>, scene: &Scene) {
+    let Some(first) = scene.textures.first() else { return };
+    let current = match relief {
+        None => "none",
+        Some(Relief::Normal { .. }) => "normal map",
+        Some(Relief::Height { .. }) => "height map",
+    };
+    let kinds = ["none", "normal map", "height map"].map(|kind| (kind, kind));
+    if let Some(kind) = kind_row(ui, "Relief", current, &kinds) {
+        let map = match relief.take() {
+            Some(Relief::Normal { map, .. } | Relief::Height { map, .. }) => map,
+            None => TextureUse { texture: first.name.clone(), scale: DVec2::ONE },
+        };
+        *relief = match kind {
+            "normal map" => Some(Relief::Normal { map, strength: 1.0 }),
+            "height map" => Some(Relief::Height { map, depth: 0.02 }),
+            _ => None,
+        };
+    }
+    match relief {
+        Some(Relief::Normal { map, strength }) => {
+            texture_ui(ui, "Normal map", map, scene);
+            number_row(ui, "Strength", strength, &Number::any(0.01));
+        }
+        Some(Relief::Height { map, depth }) => {
+            texture_ui(ui, "Height map", map, scene);
+            number_row(ui, "Depth", depth, &Number::any(0.001).tip("Height of white over black, scene units"));
+        }
+        None => {}
+    }
+}

@@ -1,0 +1,91 @@
+//! The numbers of an object.
+
+use super::control_points::control_points_ui;
+use super::fields::{Number, choice_row, rows, text_row, vector_row};
+use super::materials::{Naming, material_ui};
+use super::outline::shape_kind;
+use super::properties::length_speed;
+use crate::app::command::AppCommand;
+use crate::app::document::Document;
+use crate::app::edit::Edit;
+use crate::scene::{Object, Shape, Transform};
+use egui::{CollapsingHeader, Ui};
+use glam::DVec3;
+
+/// The object's name, form and material.
+pub(super) fn object_ui(
+    ui: &mut Ui,
+    document: &Document,
+    index: usize,
+    object: &Object,
+    commands: &mut Vec<AppCommand>,
+) {
+    ui.strong(format!("Object: {}", shape_kind(&object.shape)));
+    let mut edited = object.clone();
+    let materials = document.scene().materials.iter().map(|material| material.name.as_str());
+    rows(ui, "object", |ui| {
+        text_row(ui, "Name", &mut edited.name, ("object", index, &object.name));
+        choice_row(ui, "Material", &mut edited.material, materials);
+        shape_ui(ui, &mut edited.shape, length_speed(document));
+    });
+    if edited != *object {
+        commands.push(AppCommand::Edit(Edit::Object(index, edited)));
+    }
+    if let Shape::Bezier(bezier) = &object.shape {
+        CollapsingHeader::new("Control points").default_open(true).show(ui, |ui| {
+            control_points_ui(ui, document, index, bezier, commands);
+        });
+    }
+    let material = document.scene().materials.iter().position(|material| material.name == object.material);
+    if let Some(place) = material {
+        CollapsingHeader::new(format!("Material: {}", object.material)).id_salt("material").default_open(true).show(
+            ui,
+            |ui| {
+                material_ui(ui, document, place, &document.scene().materials[place], Naming::Fixed, commands);
+            },
+        );
+    }
+}
+
+fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {
+    let length = Number::any(speed);
+    match shape {
+        Shape::Quad { corner, edge_u, edge_v } => {
+            vector_row(ui, "Corner", corner, &length);
+            vector_row(ui, "Edge u", edge_u, &length);
+            vector_row(ui, "Edge v", edge_v, &length);
+        }
+        Shape::Sphere { center, radius } => {
+            vector_row(ui, "Centre", center, &length);
+            super::fields::number_row(ui, "Radius", radius, &Number::positive(speed));
+        }
+        Shape::Plane { point, normal, u_axis } => {
+            vector_row(ui, "Point", point, &length);
+            vector_row(ui, "Normal", normal, &Number::any(0.01));
+            u_axis_ui(ui, u_axis);
+        }
+        Shape::Bezier(bezier) => transform_ui(ui, &mut bezier.transform, speed),
+    }
+}
+
+fn u_axis_ui(ui: &mut Ui, u_axis: &mut Option<DVec3>) {
+    ui.label("Texture");
+    let mut own = u_axis.is_some();
+    if ui
+        .checkbox(&mut own, "own u axis")
+        .on_hover_text("Otherwise u runs along x, or z where the normal is along x")
+        .changed()
+    {
+        *u_axis = own.then_some(DVec3::X);
+    }
+    ui.end_row();
+    if let Some(axis) = u_axis {
+        vector_row(ui, "u axis", axis, &Number::any(0.01));
+    }
+}
+
+fn transform_ui(ui: &mut Ui, transform: &mut Transform, speed: f64) {
+    vector_row(ui, "Move", &mut transform.translate, &Number::any(speed));
+    vector_row(ui, "Rotate", &mut transform.rotate, &Number::any(0.5).unit("°"));
+    vector_row(ui, "Scale", &mut transform.scale, &Number::any(0.005));
+}

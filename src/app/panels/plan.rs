@@ -1,0 +1,19 @@
+//! What is rendered, what is skipped, and why.
+
+use crate::app::theme;
+use crate::engine::PlanSummary;
+use egui::Ui;
+
+/// The plan, a line for each of its parts.
+pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
+    let palette = theme::palette(ui.visuals().dark_mode);
+    for note in &plan.notes {
+        ui.horizontal_wrapped(|ui| {
+            let (mark, color) = if note.rendered { ("✔", palette.success) } else { ("–", palette.warning) };
+            ui.colored_label(color, mark);
+            ui.label(&note.what);
+            let how = if note.rendered { "" } else { "skipped: " };
+            ui.weak(format!("{how}{}", note.reason));
+        });
+    }
+}

@@ -1,0 +1,38 @@
+//! The numbers of what is selected.
+
+use super::{lights, materials, objects, settings};
+use crate::app::command::AppCommand;
+use crate::app::document::Document;
+use crate::app::selection::Item;
+use egui::Ui;
+
+/// A sensible step for lengths: a thousandth of the distance between the eye and what it looks at.
+pub(super) fn length_speed(document: &Document) -> f64 {
+    let camera = document.scene().camera;
+    (0.001 * camera.position.distance(camera.target)).clamp(1e-6, 1e6)
+}
+
+/// The numbers of what is selected.
+pub(crate) fn properties_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+    let scene = document.scene();
+    match document.selection.item {
+        Item::Camera => settings::camera_ui(ui, document, commands),
+        Item::Settings => settings::settings_ui(ui, document, commands),
+        Item::Object(index) => {
+            if let Some(object) = scene.objects.get(index) {
+                objects::object_ui(ui, document, index, object, commands);
+            }
+        }
+        Item::Material(index) => {
+            if let Some(material) = scene.materials.get(index) {
+                ui.strong("Material");
+                materials::material_ui(ui, document, index, material, materials::Naming::Editable, commands);
+            }
+        }
+        Item::Light(index) => {
+            if let Some(light) = scene.lights.get(index) {
+                lights::light_ui(ui, document, index, light, commands);
+            }
+        }
+    }
+}

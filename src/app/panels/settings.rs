@@ -1,0 +1,126 @@
+//! The camera, the picture and the light transport.
+
+use super::fields::{Number, color, number_row, rows, text_row, vector_row};
+use super::properties::length_speed;
+use crate::app::command::AppCommand;
+use crate::app::document::Document;
+use crate::app::edit::Edit;
+use crate::scene::{Encoding, Film, Render, Texture, ToneCurve};
+use egui::{ComboBox, DragValue, Slider, Ui};
+
+/// The eye.
+pub(super) fn camera_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+    let camera = document.scene().camera;
+    let mut edited = camera;
+    let length = Number::any(length_speed(document));
+    ui.strong("Camera");
+    rows(ui, "camera", |ui| {
+        vector_row(ui, "Position", &mut edited.position, &length);
+        vector_row(ui, "Target", &mut edited.target, &length);
+        vector_row(ui, "Up", &mut edited.up, &Number::any(0.01));
+        let angle = Number::any(0.1).within(0.1..=179.0).unit("°").tip("The whole vertical angle of view");
+        number_row(ui, "Angle", &mut edited.fov_y, &angle);
+    });
+    if edited != camera {
+        commands.push(AppCommand::Edit(Edit::Camera(edited)));
+    }
+}
+
+/// The scene's name, the picture, the light transport and the textures.
+pub(super) fn settings_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+    let scene = document.scene();
+    let (mut name, mut film, mut render) = (scene.name.clone(), scene.film, scene.render);
+    ui.strong("Picture and rendering");
+    rows(ui, "settings", |ui| {
+        text_row(ui, "Scene name", &mut name, "scene");
+        size_ui(ui, &mut film);
+        ui.label("Exposure");
+        exposure_ui(ui, &mut film);
+        ui.end_row();
+        ui.label("Tone curve");
+        tone_curve_ui(ui, &mut film);
+        ui.end_row();
+        render_ui(ui, &mut render);
+    });
+    if name != scene.name {
+        commands.push(AppCommand::Edit(Edit::Name(name)));
+    }
+    if film != scene.film {
+        commands.push(AppCommand::Edit(Edit::Film(film)));
+    }
+    if render != scene.render {
+        commands.push(AppCommand::Edit(Edit::Render(render)));
+    }
+    textures_ui(ui, &scene.textures, commands);
+}
+
+fn size_ui(ui: &mut Ui, film: &mut Film) {
+    ui.label("Size");
+    ui.horizontal(|ui| {
+        ui.add(DragValue::new(&mut film.width).range(1..=16384).suffix(" px").update_while_editing(false))
+            .accessible_name("Width");
+        ui.label("×");
+        ui.add(DragValue::new(&mut film.height).range(1..=16384).suffix(" px").update_while_editing(false))
+            .accessible_name("Height");
+    });
+    ui.end_row();
+}
+
+/// A slider in stops.
+pub(crate) fn exposure_ui(ui: &mut Ui, film: &mut Film) {
+    let slider = Slider::new(&mut film.exposure, -8.0..=8.0).fixed_decimals(1).step_by(0.1).suffix(" EV");
+    let slider = slider.clamping(egui::SliderClamping::Edits);
+    ui.add(slider).accessible_name("Exposure").on_hover_text("For the screen and PNG files; restarts nothing");
+}
+
+/// The choice of how radiance becomes what the screen shows.
+pub(crate) fn tone_curve_ui(ui: &mut Ui, film: &mut Film) {
+    let label = |curve| match curve {
+        ToneCurve::Srgb => "sRGB, clipped",
+        ToneCurve::Filmic => "filmic",
+    };
+    let response =
+        ComboBox::from_id_salt("tone curve").selected_text(label(film.tone_curve)).width(130.0).show_ui(ui, |ui| {
+            for curve in [ToneCurve::Srgb, ToneCurve::Filmic] {
+                ui.selectable_value(&mut film.tone_curve, curve, label(curve));
+            }
+        });
+    response.response.accessible_name("Tone curve");
+}
+
+fn render_ui(ui: &mut Ui, render: &mut Render) {
+    ui.label("Bounces");
+    let field = DragValue::new(&mut render.max_bounces).range(1..=1000).speed(0.1).update_while_editing(false);
+    ui.add(field)
+        .accessible_name("Bounces")
+        .on_hover_text("Scattering events on the longest path; 1 is direct light alone");
+    ui.end_row();
+    ui.label("Background");
+    ui.horizontal(|ui| color(ui, "Background", &mut render.background, &Number::positive(0.005)));
+    ui.end_row();
+}
+
+fn textures_ui(ui: &mut Ui, textures: &[Texture], commands: &mut Vec<AppCommand>) {
+    egui::CollapsingHeader::new(format!("Textures ({})", textures.len())).id_salt("textures").show(ui, |ui| {
+        for (index, texture) in textures.iter().enumerate() {
+            let mut edited = texture.clone();
+            rows(ui, &format!("texture {index}"), |ui| {
+                text_row(ui, "Name", &mut edited.name, ("texture", index, &texture.name));
+                text_row(ui, "File", &mut edited.file, ("texture file", index, &texture.file));
+                ui.label("");
+                let mut linear = edited.encoding == Encoding::Linear;
+                if ui.checkbox(&mut linear, "linear").on_hover_text("Off: the file holds sRGB colours").changed() {
+                    edited.encoding = if linear { Encoding::Linear } else { Encoding::Srgb };
+                }
+                ui.end_row();
+            });
+            ui.separator();
+            if edited != *texture {
+                commands.push(AppCommand::Edit(Edit::Texture(index, edited)));
+            }
+        }
+        if ui.button("Add texture…").on_hover_text("From a PNG or JPEG file").clicked() {
+            commands.push(AppCommand::AddTexture);
+        }
+    });
+}

@@ -1,0 +1,120 @@
+//! What the panels and the canvas talk about.
+
+use crate::scene::{Bezier, Object, Scene, Shape};
+use std::collections::BTreeSet;
+
+/// A thing that can be selected; a number is the place in its list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub(crate) enum Item {
+    /// The eye.
+    #[default]
+    Camera,
+    /// The picture's size and the light transport.
+    Settings,
+    /// A surface.
+    Object(usize),
+    /// A surface's look.
+    Material(usize),
+    /// A source of light.
+    Light(usize),
+}
+
+/// A control point of a Bezier object: `patches[patch].points[i][j]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub(crate) struct PointIndex {
+    pub(crate) patch: usize,
+    pub(crate) i: usize,
+    pub(crate) j: usize,
+}
+
+/// The selected item and, for a Bezier object, its selected control points.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(crate) struct Selection {
+    pub(crate) item: Item,
+    pub(crate) points: BTreeSet<PointIndex>,
+    /// The patch whose control points the side panel shows.
+    pub(crate) patch: usize,
+}
+
+impl Selection {
+    /// This item and none of its points.
+    pub(crate) fn of(item: Item) -> Self {
+        Self { item, ..Self::default() }
+    }
+
+    /// The first Bezier object of a scene, for it is what one comes to edit; else the first object; else the camera.
+    pub(crate) fn first_of(scene: &Scene) -> Self {
+        let bezier = scene.objects.iter().position(|object| matches!(object.shape, Shape::Bezier(_)));
+        let first = bezier.or((!scene.objects.is_empty()).then_some(0));
+        first.map_or_else(Self::default, |object| Self::of(Item::Object(object)))
+    }
+
+    /// The same without what the scene does not hold any more.
+    pub(crate) fn within(mut self, scene: &Scene) -> Self {
+        let exists = match self.item {
+            Item::Camera | Item::Settings => true,
+            Item::Object(index) => index < scene.objects.len(),
+            Item::Material(index) => index < scene.materials.len(),
+            Item::Light(index) => index < scene.lights.len(),
+        };
+        if !exists {
+            return Self::first_of(scene);
+        }
+        let patches = self.bezier(scene).map_or(0, |bezier| bezier.patches.len());
+        self.points.retain(|point| point.patch < patches);
+        self.patch = self.patch.min(patches.saturating_sub(1));
+        self
+    }
+
+    /// The selected object.
+    pub(crate) fn object<'a>(&self, scene: &'a Scene) -> Option<&'a Object> {
+        match self.item {
+            Item::Object(index) => scene.objects.get(index),
+            _ => None,
+        }
+    }
+
+    /// The selected Bezier object.
+    pub(crate) fn bezier<'a>(&self, scene: &'a Scene) -> Option<&'a Bezier> {
+        match &self.object(scene)?.shape {
+            Shape::Bezier(bezier) => Some(bezier),
+            _ => None,
+        }
+    }
+
+    /// With `extend` the point changes between selected and not, else it becomes the only one.
+    pub(crate) fn click_point(&mut self, point: PointIndex, extend: bool) {
+        self.patch = point.patch;
+        if !extend {
+            self.points.clear();
+        }
+        if !self.points.remove(&point) {
+            self.points.insert(point);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shift_adds_and_takes_away_points() {
+        let (a, b) = (PointIndex::default(), PointIndex { patch: 0, i: 1, j: 2 });
+        let mut selection = Selection::of(Item::Object(0));
+        selection.click_point(a, false);
+        selection.click_point(b, true);
+        assert_eq!(selection.points, BTreeSet::from([a, b]));
+        selection.click_point(a, true);
+        assert_eq!(selection.points, BTreeSet::from([b]));
+        selection.click_point(a, false);
+        assert_eq!(selection.points, BTreeSet::from([a]));
+    }
+
+    #[test]
+    fn what_is_gone_is_not_selected() {
+        let scene = Scene::default();
+        assert_eq!(Selection::of(Item::Object(3)).within(&scene), Selection::of(Item::Camera));
+        assert_eq!(Selection::of(Item::Settings).within(&scene), Selection::of(Item::Settings));
+    }
+}

@@ -1,0 +1,191 @@
+use super::*;
+use crate::app::handles::Handle;
+use crate::app::projection::Projection;
+use crate::app::selection::{Item, PointIndex};
+use crate::app::view::View;
+use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, TouchPhase, Vec2, vec2};
+use glam::DVec3;
+
+const POINT: &str = "Control point P[1][2]";
+
+fn handle(ui: &Ui) -> Handle {
+    let Item::Object(object) = ui.state().document.selection.item else { panic!("the sheet is selected at the start") };
+    Handle::Point { object, point: PointIndex { patch: 0, i: 1, j: 2 } }
+}
+
+fn world(ui: &Ui) -> DVec3 {
+    handle(ui).position(scene(ui)).unwrap()
+}
+
+fn drag(ui: &mut Ui, from: Pos2, way: Vec2, steps: u8) {
+    ui.hover_at(from);
+    ui.run_steps(1);
+    ui.drag_at(from);
+    ui.run_steps(1);
+    for step in 1..=steps {
+        ui.hover_at(from + way * f32::from(step) / f32::from(steps));
+        ui.run_steps(1);
+    }
+}
+
+#[test]
+fn a_dragged_control_point_follows_the_pointer_in_one_step() {
+    let mut ui = open("report");
+    let before = scene(&ui).clone();
+    let (start, from) = (world(&ui), ui.get_by_label(POINT).rect().center());
+    shown(&mut ui);
+    drag(&mut ui, from, vec2(40.0, -30.0), 8);
+    ui.drop_at(from + vec2(40.0, -30.0));
+    ui.run_steps(2);
+
+    let projection = Projection::new(&scene(&ui).camera, &scene(&ui).film).unwrap();
+    let placement = ui.state().canvas.placement.unwrap();
+    let there = placement.to_screen(projection.project(world(&ui)).unwrap());
+    // The handle is drawn at f32 coordinates of size 1000, and rounded to pixels for assistive technology.
+    assert!(there.distance(from + vec2(40.0, -30.0)) < 1.5, "{there:?} is not under the pointer");
+    let depth = projection.depth(world(&ui)) - projection.depth(start);
+    assert!(depth.abs() < 1e-12, "it left the plane that faces the camera by {depth}");
+    assert!(shown(&mut ui).len() >= 8, "each move of the pointer is rendered");
+
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), before, "one step back is before the drag");
+    ui.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    ui.run_steps(2);
+    assert_ne!(*scene(&ui), before, "and forward again");
+}
+
+#[test]
+fn escape_takes_a_drag_back() {
+    let mut ui = open("report");
+    let before = scene(&ui).clone();
+    let from = ui.get_by_label(POINT).rect().center();
+    drag(&mut ui, from, vec2(25.0, 10.0), 3);
+    assert_ne!(*scene(&ui), before);
+    ui.key_press(Key::Escape);
+    ui.run_steps(2);
+    ui.hover_at(from + vec2(50.0, 50.0));
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), before, "also while the button is still down");
+    ui.drop_at(from);
+    ui.run_steps(2);
+    assert_eq!(ui.state().document.undoable(), None, "it leaves no step");
+}
+
+#[test]
+fn an_axis_key_keeps_the_drag_on_the_axis() {
+    let mut ui = open("report");
+    let (start, from) = (world(&ui), ui.get_by_label(POINT).rect().center());
+    ui.key_down(Key::Y);
+    drag(&mut ui, from, vec2(10.0, -30.0), 4);
+    let moved = world(&ui) - start;
+    assert!(moved.y > 0.0, "up, with the pointer: {moved}");
+    // What rounding leaves beside the axis, in numbers of size 1.
+    assert!(moved.x.abs() + moved.z.abs() < 1e-12, "and nowhere else: {moved}");
+}
+
+#[test]
+fn a_click_on_a_handle_selects_and_shift_adds() {
+    let mut ui = open("report");
+    ui.get_by_label(POINT).click();
+    ui.run_steps(2);
+    ui.get_by_label("Control point P[2][2]").click_modifiers(Modifiers::SHIFT);
+    ui.run_steps(2);
+    let points: Vec<_> = ui.state().document.selection.points.iter().map(|point| (point.i, point.j)).collect();
+    assert_eq!(points, [(1, 2), (2, 2)]);
+
+    let start = world(&ui);
+    let from = ui.get_by_label("Control point P[2][2]").rect().center();
+    drag(&mut ui, from, vec2(20.0, 0.0), 2);
+    ui.drop_at(from + vec2(20.0, 0.0));
+    ui.run_steps(2);
+    assert_ne!(world(&ui), start, "the selected points move together");
+}
+
+#[test]
+fn shared_points_of_patches_move_together() {
+    let mut ui = open("teapot");
+    let mut before = Vec::new();
+    let Item::Object(object) = ui.state().document.selection.item else { panic!("the teapot is selected") };
+    // A corner of the first patch, which its neighbours share.
+    let corner = Handle::Point { object, point: PointIndex::default() };
+    let start = corner.position(scene(&ui)).unwrap();
+    for handle in crate::app::handles::visible(scene(&ui), Item::Object(object)) {
+        before.push((handle, handle.position(scene(&ui)).unwrap()));
+    }
+    let label = before.iter().find(|(handle, at)| matches!(handle, Handle::Point { .. }) && *at == start).unwrap().0;
+    let from = ui.get_by_label(&label.label(scene(&ui))).rect().center();
+    drag(&mut ui, from, vec2(15.0, -15.0), 2);
+    ui.drop_at(from + vec2(15.0, -15.0));
+    ui.run_steps(2);
+    let after = crate::app::handles::visible(scene(&ui), Item::Object(object));
+    assert_eq!(after.len(), before.len(), "no place came apart");
+}
+
+#[test]
+fn a_click_in_the_picture_selects_what_is_seen() {
+    let mut ui = open("report");
+    let ball = scene(&ui).objects.iter().position(|object| object.name == "mirror ball").unwrap();
+    let center = Handle::Object(ball).position(scene(&ui)).unwrap();
+    let projection = Projection::new(&scene(&ui).camera, &scene(&ui).film).unwrap();
+    let at = ui.state().canvas.placement.unwrap().to_screen(projection.project(center).unwrap());
+    ui.hover_at(at);
+    ui.run_steps(1);
+    ui.drag_at(at);
+    ui.run_steps(1);
+    ui.drop_at(at);
+    ui.run_steps(2);
+    assert_eq!(ui.state().document.selection.item, Item::Object(ball));
+}
+
+#[test]
+fn the_wheel_zooms_to_the_pointer_and_f_fits() {
+    let mut ui = open("cornell");
+    let before = ui.state().canvas.placement.unwrap();
+    let cursor = before.picture().center() + vec2(60.0, -35.0);
+    let film = before.to_film(cursor);
+    ui.hover_at(cursor);
+    ui.run_steps(1);
+    ui.event(Event::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        delta: vec2(0.0, 3.0),
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Unknown,
+        modifiers: Modifiers::NONE,
+    });
+    ui.run_steps(20);
+    let after = ui.state().canvas.placement.unwrap();
+    assert!(after.scale > 1.2 * before.scale, "{} is not larger than {}", after.scale, before.scale);
+    // f32 coordinates of size 1000, over some twenty frames of smooth scrolling.
+    assert!(after.to_screen(film).distance(cursor) < 0.1, "the pixel under the pointer stays there");
+    ui.key_press(Key::F);
+    ui.run_steps(2);
+    assert_eq!(ui.state().canvas.view, View::Fit);
+}
+
+#[test]
+fn dragging_beside_the_handles_pans() {
+    let mut ui = open("cornell");
+    let before = scene(&ui).clone();
+    let placement = ui.state().canvas.placement.unwrap();
+    let from = placement.picture().left_bottom() + vec2(20.0, -20.0);
+    drag(&mut ui, from, vec2(30.0, 40.0), 5);
+    ui.drop_at(from + vec2(30.0, 40.0));
+    ui.run_steps(2);
+    let moved = ui.state().canvas.placement.unwrap().picture().min - placement.picture().min;
+    assert!((moved - vec2(30.0, 40.0)).length() < 0.1, "the picture follows: {moved:?}");
+    assert_eq!(*scene(&ui), before, "the scene does not");
+}
+
+#[test]
+fn lights_are_dragged_too() {
+    let mut ui = open("report");
+    let light = Handle::Light(0);
+    let start = light.position(scene(&ui)).unwrap();
+    let from = ui.get_by_label(&light.label(scene(&ui))).rect().center();
+    drag(&mut ui, from, vec2(-30.0, 0.0), 3);
+    ui.drop_at(from + vec2(-30.0, 0.0));
+    ui.run_steps(2);
+    assert_ne!(light.position(scene(&ui)).unwrap(), start);
+    assert_eq!(ui.state().document.selection.item, Item::Light(0), "what is dragged is selected");
+}

@@ -1,0 +1,43 @@
+use super::*;
+
+#[test]
+fn a_frame_becomes_the_texture_and_fills_the_panels() {
+    let mut ui = open("cornell");
+    assert!(ui.state().display.texture().is_none(), "nothing to show yet");
+    receive(&mut ui, frame(1, false, 16));
+    wait_until(&mut ui, "the texture", |ui| ui.state().display.texture().is_some());
+    assert_eq!(ui.state().display.texture().unwrap().size(), [16, 16]);
+    for text in ["120 000", "80.00 k", "5.00 %", "200.0 ms"] {
+        assert!(ui.query_by_label(text).is_some(), "{text} is not shown");
+    }
+}
+
+#[test]
+fn the_newest_picture_is_shown_last() {
+    let mut ui = open("cornell");
+    for size in 1..=20 {
+        ui.state_mut().receive(Some(frame(1, false, size)), Status::Rendering);
+        ui.run_steps(1);
+    }
+    let newest = |ui: &mut Ui| ui.state().display.texture().is_some_and(|texture| texture.size() == [20, 20]);
+    wait_until(&mut ui, "the newest picture", newest);
+}
+
+#[test]
+fn the_plan_says_what_is_skipped_and_why() {
+    let mut ui = open("cornell");
+    receive(&mut ui, frame(1, false, 16));
+    ui.get_by_label("Plan").click();
+    ui.run_steps(20);
+    assert!(ui.query_by_label("skipped: no specular surface").is_some(), "the reason is shown");
+}
+
+#[test]
+fn a_failure_is_a_message_and_the_scene_lives() {
+    let mut ui = open("cornell");
+    ui.state_mut().receive(None, Status::Failed("the photon pass stopped".to_owned()));
+    ui.run_steps(2);
+    assert!(ui.query_by_label_contains("the photon pass stopped").is_some(), "why");
+    type_number(&mut ui, "Corner x", "-0.9");
+    assert!(ui.state().document.is_dirty(), "it can be edited");
+}

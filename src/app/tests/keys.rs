@@ -1,0 +1,70 @@
+use super::*;
+use crate::app::dialogs::Dialog;
+use egui::{Key, Modifiers};
+
+fn commands(ui: &mut Ui) -> Vec<&'static str> {
+    let name = |command| match command {
+        Command::Show(_) => "show",
+        Command::Pause => "pause",
+        Command::Resume => "resume",
+        Command::Restart => "restart",
+    };
+    ui.state_mut().outbox.drain(..).map(name).collect()
+}
+
+#[test]
+fn space_pauses_and_resumes_and_r_restarts() {
+    let mut ui = open("cornell");
+    assert_eq!(commands(&mut ui), ["show"], "rendering begins at once");
+    ui.key_press(Key::Space);
+    ui.run_steps(2);
+    assert_eq!(commands(&mut ui), ["pause"]);
+    ui.state_mut().receive(None, Status::Paused);
+    ui.key_press(Key::Space);
+    ui.run_steps(2);
+    assert_eq!(commands(&mut ui), ["resume"]);
+    ui.key_press(Key::R);
+    ui.run_steps(2);
+    assert_eq!(commands(&mut ui), ["restart"]);
+}
+
+#[test]
+fn a_text_field_keeps_its_keys() {
+    let mut ui = open("cornell");
+    type_number(&mut ui, "Corner x", "-0.5");
+    let edited = scene(&ui).clone();
+    commands(&mut ui);
+    ui.get_by_role_and_label(Role::TextInput, "Name").click();
+    ui.run_steps(2);
+    for key in [Key::Space, Key::R, Key::Delete] {
+        ui.key_press(key);
+        ui.run_steps(1);
+    }
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), edited, "nothing was undone or deleted");
+    assert!(commands(&mut ui).is_empty(), "nothing was paused or restarted");
+}
+
+#[test]
+fn f1_shows_every_key() {
+    let mut ui = open("cornell");
+    ui.key_press(Key::F1);
+    ui.run_steps(3);
+    assert_eq!(ui.state().dialog, Some(Dialog::Help));
+    for label in ["Pause or resume", "Undo", "Export picture…", "Esc meanwhile"] {
+        assert!(ui.query_by_label(label).is_some(), "{label} is not in the help");
+    }
+    ui.key_press(Key::Escape);
+    ui.run_steps(3);
+    assert_eq!(ui.state().dialog, None);
+}
+
+#[test]
+fn panels_can_be_hidden() {
+    let mut ui = open("cornell");
+    let narrow = ui.state().canvas.placement.unwrap().canvas.width();
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::B);
+    ui.run_steps(3);
+    assert!(ui.state().canvas.placement.unwrap().canvas.width() > narrow + 300.0, "the picture has the room");
+}

@@ -1,0 +1,111 @@
+//! The editor as a user meets it, without a window, a GPU or an engine.
+
+mod canvas;
+mod display;
+mod files;
+mod keys;
+mod panels;
+
+use super::chooser::{Chooser, Request};
+use super::editor::Editor;
+use super::theme;
+use crate::engine::{Command, Counters, Frame, PassSeconds, PlanNote, PlanSummary, Stats, Status};
+use crate::film::LinearImage;
+use crate::math::Rgb;
+use crate::scene::{Scene, SceneFile};
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+use egui_kittest::{Harness, Node};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+type Ui = Harness<'static, Editor>;
+
+/// The editor with a built-in scene, as the window shows it.
+fn open(scene: &str) -> Ui {
+    let editor = Editor::new(SceneFile::built_in(scene).unwrap());
+    let show = |ui: &mut egui::Ui, editor: &mut Editor| {
+        editor.poll(ui.ctx());
+        editor.ui(ui);
+    };
+    let builder = Harness::builder().with_size([1280.0, 900.0]).with_context_setup(theme::install);
+    let mut ui = builder.build_ui_state(show, editor);
+    // Panels find their sizes in the first frames.
+    ui.run_steps(4);
+    ui
+}
+
+fn scene(ui: &Ui) -> &Scene {
+    ui.state().document.scene()
+}
+
+/// The scenes that were sent to the engine since.
+fn shown(ui: &mut Ui) -> Vec<Arc<SceneFile>> {
+    let sent = ui.state_mut().outbox.drain(..);
+    sent.filter_map(|command| if let Command::Show(file) = command { Some(file) } else { None }).collect()
+}
+
+/// Types a number into a field, as a user does.
+fn type_number(ui: &mut Ui, field: &str, text: &str) {
+    ui.get_by_role_and_label(Role::SpinButton, field).click();
+    ui.run_steps(2);
+    ui.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    ui.run_steps(1);
+    focused(ui).type_text(text);
+    ui.key_press(egui::Key::Enter);
+    ui.run_steps(2);
+}
+
+fn focused(ui: &Ui) -> Node<'_> {
+    ui.get_by(|node| node.is_focused())
+}
+
+/// Opens a menu and clicks an entry.
+fn choose_from_menu(ui: &mut Ui, path: &[&str]) {
+    for label in path {
+        ui.get_by_role_and_label(Role::Button, label).click();
+        ui.run_steps(3);
+    }
+}
+
+/// Steps until something happens on another thread.
+fn wait_until(ui: &mut Ui, what: &str, mut done: impl FnMut(&mut Ui) -> bool) {
+    let start = Instant::now();
+    while !done(ui) {
+        assert!(start.elapsed() < Duration::from_secs(20), "{what} did not happen");
+        std::thread::sleep(Duration::from_millis(2));
+        ui.run_steps(1);
+    }
+}
+
+/// File dialogs that answer at once.
+fn answer_dialogs(ui: &mut Ui, path: Option<PathBuf>) {
+    ui.state_mut().chooser = Chooser::new(Arc::new(move |_: &Request| path.clone()));
+}
+
+fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
+    let pixels = (0..size * size).map(|k| Rgb::splat((k % 7) as f32 / 7.0)).collect();
+    let plan = PlanSummary {
+        notes: vec![PlanNote { what: "caustics".into(), rendered: false, reason: "no specular surface".into() }],
+    };
+    let stats = Stats {
+        iterations: 3,
+        photons_emitted: 120_000,
+        rays: 1_000_000,
+        dropped_samples: 0,
+        seconds: 1.5,
+        photons_per_second: 80_000.0,
+        radius: 0.01,
+        error_estimate: Some(0.05),
+        passes: PassSeconds { prepare: 0.01, camera: 0.1, photons: 0.6, map: 0.05, gather: 0.1, commit: 0.02 },
+        counters: Counters::default(),
+    };
+    let image = Arc::new(LinearImage { width: size, height: size, pixels });
+    Arc::new(Frame { generation, draft, iteration: 3, image, stats, plan: Arc::new(plan) })
+}
+
+fn receive(ui: &mut Ui, frame: Arc<Frame>) {
+    ui.state_mut().receive(Some(frame), Status::Rendering);
+    ui.run_steps(2);
+}

@@ -1,0 +1,188 @@
+use super::*;
+use crate::app::selection::{Item, Selection};
+use crate::scene::{Color, Emitter, MaterialModel, Shape, built_in_scenes};
+use egui::{Key, Modifiers};
+
+fn select(ui: &mut Ui, item: Item) {
+    ui.state_mut().document.selection = Selection::of(item);
+    ui.run_steps(2);
+}
+
+fn place(ui: &Ui, kind: impl Fn(&Shape) -> bool) -> usize {
+    scene(ui).objects.iter().position(|object| kind(&object.shape)).unwrap()
+}
+
+#[test]
+fn a_typed_number_changes_the_scene_and_undo_takes_it_back() {
+    let mut ui = open("report");
+    let before = scene(&ui).clone();
+    let ball = place(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    select(&mut ui, Item::Object(ball));
+    shown(&mut ui);
+    type_number(&mut ui, "Radius", "0.125");
+    assert!(matches!(scene(&ui).objects[ball].shape, Shape::Sphere { radius: 0.125, .. }), "the number counts");
+    assert_eq!(shown(&mut ui).len(), 1, "one scene is rendered for one number");
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), before, "as before");
+    assert_eq!(shown(&mut ui).len(), 1, "and rendered again");
+}
+
+#[test]
+fn control_points_are_numbers() {
+    let mut ui = open("report");
+    let sheet = place(&ui, |shape| matches!(shape, Shape::Bezier(_)));
+    select(&mut ui, Item::Object(sheet));
+    type_number(&mut ui, "P[1][2] y", "-0.25");
+    let Shape::Bezier(bezier) = &scene(&ui).objects[sheet].shape else { panic!("a Bezier object") };
+    assert_eq!(bezier.patches[0].points[1][2].y, -0.25);
+    assert_eq!(bezier.file, None, "a .bpt file would hold other points");
+}
+
+#[test]
+fn every_patch_of_an_object_can_be_reached() {
+    let mut ui = open("teapot");
+    let teapot = place(&ui, |shape| matches!(shape, Shape::Bezier(_)));
+    select(&mut ui, Item::Object(teapot));
+    type_number(&mut ui, "Patch", "31");
+    assert_eq!(ui.state().document.selection.patch, 31);
+    type_number(&mut ui, "P[0][0] x", "0.5");
+    let Shape::Bezier(bezier) = &scene(&ui).objects[teapot].shape else { panic!("a Bezier object") };
+    assert_eq!(bezier.patches[31].points[0][0].x, 0.5);
+}
+
+#[test]
+fn exposure_restarts_nothing_and_can_be_undone() {
+    let mut ui = open("cornell");
+    shown(&mut ui);
+    let before = scene(&ui).film.exposure;
+    ui.get_by_role_and_label(Role::SpinButton, "Exposure").click();
+    ui.run_steps(2);
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    ui.run_steps(1);
+    focused(&ui).type_text("2");
+    ui.key_press(Key::Enter);
+    ui.run_steps(2);
+    assert_eq!(scene(&ui).film.exposure, 2.0);
+    assert_eq!(ui.state().document.undoable(), Some("picture settings"));
+    assert!(shown(&mut ui).is_empty(), "the radiance is the same");
+    ui.state_mut().document.undo();
+    assert_eq!(scene(&ui).film.exposure, before);
+}
+
+#[test]
+fn a_light_keeps_its_hue_when_its_strength_changes() {
+    let mut ui = open("report");
+    let lamp = scene(&ui).lights.iter().position(|light| matches!(light.emitter, Emitter::Point { .. })).unwrap();
+    let strength = |ui: &Ui| match scene(ui).lights[lamp].emitter {
+        Emitter::Point { intensity, .. } => intensity,
+        _ => panic!("a point light"),
+    };
+    let before = strength(&ui);
+    select(&mut ui, Item::Light(lamp));
+    type_number(&mut ui, "Intensity", "4");
+    let expected = before * (4.0 / before.max_element());
+    // One multiplication and one division in f32.
+    assert!((strength(&ui) - expected).length() < 1e-5, "{} is not {expected}", strength(&ui));
+}
+
+#[test]
+fn another_type_of_material_is_chosen_from_a_list() {
+    let mut ui = open("cornell");
+    select(&mut ui, Item::Material(0));
+    ui.get_by_role_and_label(Role::ComboBox, "Type").click();
+    ui.run_steps(3);
+    ui.get_by_role_and_label(Role::Button, "glass").click();
+    ui.run_steps(3);
+    assert!(matches!(scene(&ui).materials[0].model, MaterialModel::Glass { .. }), "{:?}", scene(&ui).materials[0]);
+    type_number(&mut ui, "Refraction", "1.33");
+    assert!(matches!(scene(&ui).materials[0].model, MaterialModel::Glass { ior: 1.33, .. }), "its numbers are there");
+}
+
+#[test]
+fn an_invalid_scene_is_explained_and_not_rendered() {
+    let mut ui = open("report");
+    let floor = place(&ui, |shape| matches!(shape, Shape::Quad { .. }));
+    select(&mut ui, Item::Object(floor));
+    shown(&mut ui);
+    for axis in ["x", "y", "z"] {
+        type_number(&mut ui, &format!("Edge u {axis}"), "0");
+    }
+    assert!(ui.query_by_label_contains("cannot be rendered").is_some(), "the window says so");
+    assert!(ui.query_by_label_contains("edge_u").is_some(), "and why");
+    let valid = shown(&mut ui).len();
+    type_number(&mut ui, "Edge u x", "1.5");
+    assert!(ui.query_by_label_contains("cannot be rendered").is_none(), "all is well again");
+    assert_eq!(shown(&mut ui).len(), 1, "and rendered, like {valid} scenes on the way");
+}
+
+#[test]
+fn a_name_counts_when_it_is_complete() {
+    let mut ui = open("cornell");
+    select(&mut ui, Item::Material(0));
+    let before = scene(&ui).materials[0].name.clone();
+    let user = scene(&ui).objects.iter().position(|object| object.material == before).unwrap();
+    ui.get_by_role_and_label(Role::TextInput, "Name").click();
+    ui.run_steps(2);
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    focused(&ui).type_text("chalk");
+    ui.run_steps(2);
+    assert_eq!(scene(&ui).materials[0].name, before, "not while typing");
+    ui.key_press(Key::Enter);
+    ui.run_steps(2);
+    assert_eq!((scene(&ui).materials[0].name.as_str(), scene(&ui).objects[user].material.as_str()), ("chalk", "chalk"));
+}
+
+#[test]
+fn objects_are_added_copied_and_deleted() {
+    let mut ui = open("cornell");
+    let count = scene(&ui).objects.len();
+    ui.state_mut().document.selection = Selection::of(Item::Object(0));
+    ui.run_steps(1);
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::D);
+    ui.run_steps(2);
+    assert_eq!(scene(&ui).objects.len(), count + 1);
+    assert_eq!(ui.state().document.selection.item, Item::Object(count), "the copy is selected");
+    ui.key_press(Key::Delete);
+    ui.run_steps(2);
+    assert_eq!(scene(&ui).objects.len(), count);
+}
+
+#[test]
+fn a_material_in_use_stays() {
+    let mut ui = open("cornell");
+    select(&mut ui, Item::Material(0));
+    let before = scene(&ui).clone();
+    ui.key_press(Key::Delete);
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), before);
+}
+
+#[test]
+fn every_item_of_every_scene_has_its_panel_with_named_fields() {
+    for example in built_in_scenes() {
+        let mut ui = open(example.name);
+        let scene = scene(&ui).clone();
+        let objects = (0..scene.objects.len()).map(Item::Object);
+        let lights = (0..scene.lights.len()).map(Item::Light);
+        let materials = (0..scene.materials.len()).map(Item::Material);
+        let settings = [Item::Camera, Item::Settings].into_iter();
+        for item in settings.chain(objects).chain(lights).chain(materials) {
+            select(&mut ui, item);
+            ui.check_accessibility();
+            assert_eq!(ui.state().document.scene(), &scene, "looking at {item:?} of {} changes nothing", example.name);
+        }
+    }
+}
+
+#[test]
+fn a_texture_can_replace_a_colour() {
+    let mut ui = open("report");
+    let is_plain = |model: &MaterialModel| matches!(model, MaterialModel::Diffuse { albedo: Color::Constant(_) });
+    let plain = scene(&ui).materials.iter().position(|material| is_plain(&material.model)).unwrap();
+    select(&mut ui, Item::Material(plain));
+    ui.get_by_label("Albedo from a texture").click();
+    ui.run_steps(2);
+    let model = &scene(&ui).materials[plain].model;
+    assert!(matches!(model, MaterialModel::Diffuse { albedo: Color::Texture(_) }), "{model:?}");
+}

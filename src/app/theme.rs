@@ -1,0 +1,103 @@
+//! Every colour of the window.
+
+use egui::{Color32, Context, CornerRadius, Stroke, Theme, Visuals};
+
+/// The colours that egui's own style does not hold.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Palette {
+    /// Round the picture.
+    pub(crate) canvas: Color32,
+    /// The picture's edge.
+    pub(crate) frame: Color32,
+    /// Wrong, failed.
+    pub(crate) error: Color32,
+    /// Worth a look.
+    pub(crate) warning: Color32,
+    /// Done, rendered.
+    pub(crate) success: Color32,
+    /// The line in the plot.
+    pub(crate) plot: Color32,
+    /// The axes x, y and z.
+    pub(crate) axes: [Color32; 3],
+}
+
+const DARK: Palette = Palette {
+    canvas: Color32::from_rgb(24, 25, 28),
+    frame: Color32::from_rgb(70, 72, 78),
+    error: Color32::from_rgb(255, 122, 112),
+    warning: Color32::from_rgb(242, 190, 84),
+    success: Color32::from_rgb(120, 205, 130),
+    plot: Color32::from_rgb(110, 178, 255),
+    axes: [Color32::from_rgb(240, 110, 115), Color32::from_rgb(130, 205, 100), Color32::from_rgb(105, 160, 255)],
+};
+
+const LIGHT: Palette = Palette {
+    canvas: Color32::from_rgb(212, 213, 216),
+    frame: Color32::from_rgb(150, 152, 158),
+    error: Color32::from_rgb(178, 28, 22),
+    warning: Color32::from_rgb(138, 88, 0),
+    success: Color32::from_rgb(24, 112, 44),
+    plot: Color32::from_rgb(20, 92, 190),
+    axes: [Color32::from_rgb(190, 35, 45), Color32::from_rgb(50, 120, 20), Color32::from_rgb(25, 80, 200)],
+};
+
+/// The colours drawn over the picture; the same in both themes, for the picture is.
+pub(crate) mod overlay {
+    use egui::Color32;
+
+    /// Under every line and handle, so that they show on white and on black.
+    pub(crate) const OUTLINE: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 170);
+    /// The control net.
+    pub(crate) const NET: Color32 = Color32::from_rgb(150, 196, 255);
+    /// The control net of the other patches.
+    pub(crate) const NET_FAINT: Color32 = Color32::from_rgba_premultiplied(75, 98, 128, 128);
+    /// A handle.
+    pub(crate) const HANDLE: Color32 = Color32::from_rgb(235, 242, 255);
+    /// The handle under the pointer.
+    pub(crate) const HOVERED: Color32 = Color32::from_rgb(255, 226, 120);
+    /// A selected handle.
+    pub(crate) const SELECTED: Color32 = Color32::from_rgb(255, 150, 40);
+    /// A light.
+    pub(crate) const LIGHT: Color32 = Color32::from_rgb(255, 236, 130);
+}
+
+/// The palette of the theme that is shown.
+pub(crate) fn palette(dark_mode: bool) -> &'static Palette {
+    if dark_mode { &DARK } else { &LIGHT }
+}
+
+/// Sets both themes.
+pub(crate) fn install(ctx: &Context) {
+    ctx.set_visuals_of(
+        Theme::Dark,
+        visuals(Visuals::dark(), Color32::from_rgb(40, 92, 160), Color32::from_rgb(236, 243, 255)),
+    );
+    ctx.set_visuals_of(
+        Theme::Light,
+        visuals(Visuals::light(), Color32::from_rgb(160, 200, 250), Color32::from_rgb(0, 40, 90)),
+    );
+    ctx.all_styles_mut(|style| {
+        style.spacing.item_spacing = egui::vec2(6.0, 5.0);
+        style.spacing.interact_size.y = 20.0;
+        style.spacing.slider_width = 130.0;
+    });
+}
+
+fn visuals(mut visuals: Visuals, selected: Color32, on_selected: Color32) -> Visuals {
+    visuals.selection.bg_fill = selected;
+    visuals.selection.stroke = Stroke::new(1.0, on_selected);
+    visuals.window_corner_radius = CornerRadius::same(6);
+    let palette = palette(visuals.dark_mode);
+    visuals.error_fg_color = palette.error;
+    visuals.warn_fg_color = palette.warning;
+    if visuals.dark_mode {
+        // egui's own greys stay below the contrast that small text needs on its dark panels.
+        visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(190);
+        visuals.widgets.inactive.fg_stroke.color = Color32::from_gray(210);
+        visuals.weak_text_color = Some(Color32::from_gray(150));
+    } else {
+        visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(50);
+        visuals.weak_text_color = Some(Color32::from_gray(95));
+    }
+    visuals
+}

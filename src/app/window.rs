@@ -1,0 +1,61 @@
+//! The editor in a window of the desktop, with an engine.
+
+use super::command::{AppCommand, Next};
+use super::editor::Editor;
+use super::theme;
+use crate::engine::{Engine, EngineError, EngineSettings};
+use crate::scene::SceneFile;
+use eframe::{App, CreationContext, Frame};
+use egui::{Context, Ui, ViewportCommand};
+
+/// The window.
+pub(crate) struct Window {
+    editor: Editor,
+    engine: Engine,
+    title: String,
+}
+
+impl Window {
+    /// Begins to render at once.
+    pub(crate) fn new(creation: &CreationContext<'_>, file: SceneFile) -> Result<Self, EngineError> {
+        theme::install(&creation.egui_ctx);
+        let ctx = creation.egui_ctx.clone();
+        let engine = Engine::start(EngineSettings::default(), move || ctx.request_repaint())?;
+        Ok(Self { editor: Editor::new(file), engine, title: String::new() })
+    }
+
+    fn exchange(&mut self) {
+        for command in self.editor.outbox.drain(..) {
+            self.engine.send(command);
+        }
+        self.editor.receive(self.engine.newest_frame(), self.engine.status());
+    }
+
+    fn update_title(&mut self, ctx: &Context) {
+        let title = format!("{} - patchlight", self.editor.document.title());
+        if title != self.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+}
+
+impl App for Window {
+    fn logic(&mut self, ctx: &Context, _frame: &mut Frame) {
+        self.exchange();
+        self.editor.poll(ctx);
+        if ctx.input(|input| input.viewport().close_requested())
+            && !self.editor.may_close
+            && self.editor.document.is_dirty()
+        {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.editor.apply(ctx, AppCommand::GoTo(Next::Quit));
+        }
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut Frame) {
+        self.editor.ui(ui);
+        self.exchange();
+        self.update_title(ui.ctx());
+    }
+}
