@@ -57,16 +57,16 @@ impl Canvas {
         let placement = self.view.place(rect, film);
         self.placement = Some(placement);
         paint_picture(ui, &placement, texture);
-        self.navigate(ui, &response, &placement);
         let pointer = response.contains_pointer().then(|| ui.input(|input| input.pointer.hover_pos())).flatten();
         self.pixel = pointer.and_then(|pointer| placement.pixel(pointer));
         if let Some(projection) = Projection::new(&scene.camera, &scene.film) {
             let stage = Stage { document, placement, projection };
             pick(&stage, &response, commands);
             if self.show_handles {
-                self.handles_ui(ui, &stage, commands);
+                self.handles_ui(ui, &stage, &response, commands);
             }
         }
+        self.navigate(ui, &response, &placement);
     }
 
     /// Wheel and pinch zoom to the pointer; dragging beside the handles pans.
@@ -76,13 +76,13 @@ impl Canvas {
         let factor = pinch * (scroll * WHEEL_ZOOM).exp();
         if let Some(pointer) = pointer.filter(|_| response.contains_pointer() && factor != 1.0) {
             self.view = placement.zoomed(factor, pointer);
-        } else if response.dragged() {
+        } else if response.dragged() && self.drag.is_none() {
             self.view = placement.panned(response.drag_delta());
             ui.set_cursor_icon(CursorIcon::Grabbing);
         }
     }
 
-    fn handles_ui(&mut self, ui: &mut Ui, stage: &Stage<'_>, commands: &mut Vec<AppCommand>) {
+    fn handles_ui(&mut self, ui: &mut Ui, stage: &Stage<'_>, canvas: &Response, commands: &mut Vec<AppCommand>) {
         // Before the handles, which Escape makes forget that they are dragged.
         if self.drag.is_some() && ui.input(|input| input.key_pressed(Key::Escape)) {
             self.drag = None;
@@ -95,10 +95,37 @@ impl Canvas {
         if let Some(bezier) = stage.document.selection.bezier(stage.document.scene()) {
             overlay::paint_net(&painter, stage, bezier);
         }
+        self.take_over(ui, stage, &shown, canvas, commands);
         for place in &shown {
             let response = handle_ui(ui, stage, place);
             self.act(ui, stage, place.handle, &response, commands);
             overlay::paint_handle(&painter, stage, place, &response);
+        }
+    }
+
+    /// A handle that the pointer has left before the first frame of its drag. egui looks where the pointer is, not where the
+    /// button went down, and finds the canvas; in a slow frame a hand comes that far.
+    fn take_over(
+        &mut self,
+        ui: &Ui,
+        stage: &Stage<'_>,
+        shown: &[HandlePlace],
+        canvas: &Response,
+        commands: &mut Vec<AppCommand>,
+    ) {
+        if canvas.drag_started_by(PointerButton::Primary) {
+            let pressed = ui.input(|input| input.pointer.press_origin());
+            // The last is on top.
+            let grabbed = pressed.and_then(|at| shown.iter().rev().find(|place| place.grab_rect().contains(at)));
+            if let Some(place) = grabbed {
+                self.begin_drag(ui, stage, place.handle, commands);
+            }
+        }
+        if let Some(drag) = self.drag.filter(|_| canvas.dragged()) {
+            self.go_on(ui, stage, drag.handle, canvas, commands);
+        }
+        if canvas.drag_stopped() {
+            self.drag = None;
         }
     }
 
@@ -155,6 +182,13 @@ pub(crate) struct HandlePlace {
     pub(crate) handle: Handle,
     pub(crate) screen: Pos2,
     depth: f64,
+}
+
+impl HandlePlace {
+    /// Where it takes the pointer.
+    fn grab_rect(&self) -> Rect {
+        Rect::from_center_size(self.screen, Vec2::splat(GRAB_SIZE))
+    }
 }
 
 impl Stage<'_> {
@@ -216,8 +250,7 @@ fn constraint(ui: &Ui) -> Constraint {
 }
 
 fn handle_ui(ui: &mut Ui, stage: &Stage<'_>, place: &HandlePlace) -> Response {
-    let rect = Rect::from_center_size(place.screen, Vec2::splat(GRAB_SIZE));
-    let response = ui.interact(rect, ui.scope_id().with(place.handle), Sense::click_and_drag());
+    let response = ui.interact(place.grab_rect(), ui.scope_id().with(place.handle), Sense::click_and_drag());
     let label = place.handle.label(stage.document.scene());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label.clone()));
     let response = response.on_hover_cursor(CursorIcon::Grab);

@@ -56,6 +56,28 @@ fn a_dragged_control_point_follows_the_pointer_in_one_step() {
 }
 
 #[test]
+fn a_drag_that_leaves_the_handle_within_one_frame_still_drags_it() {
+    let mut ui = open("report");
+    let (start, from) = (world(&ui), ui.get_by_label(POINT).rect().center());
+    let view = ui.state().canvas.view;
+    let button = |pressed, pos| Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    let events = [Event::PointerMoved(from), button(true, from), Event::PointerMoved(from + vec2(45.0, 20.0))];
+    ui.input_mut().events.extend(events);
+    ui.run_steps(3);
+    ui.hover_at(from + vec2(60.0, 20.0));
+    ui.run_steps(2);
+    ui.drop_at(from + vec2(60.0, 20.0));
+    ui.run_steps(2);
+    assert_eq!(ui.state().canvas.view, view, "the picture stays");
+    assert_ne!(world(&ui), start, "the handle goes");
+}
+
+#[test]
 fn escape_takes_a_drag_back() {
     let mut ui = open("report");
     let before = scene(&ui).clone();
