@@ -8,6 +8,7 @@ use std::{io::Write, process::ExitCode};
 fn main() -> ExitCode {
     match cli::run(Arguments::parse(), open_window) {
         Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(error) => {
             // Where not even messages can be written, the exit code must do.
             writeln!(std::io::stderr(), "{error}").ok();

@@ -19,12 +19,17 @@ pub enum CliError {
     /// It failed while running.
     #[error("{0}")]
     Failed(String),
-    /// Nobody reads the output any more.
+    /// Standard output or standard error takes nothing.
     #[error("the output cannot be written: {0}")]
     Output(#[from] io::Error),
 }
 
 impl CliError {
+    /// Whether all that happened is that the reader of the output went away, as `head` does.
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+
     /// 1: it failed while running; 2: the command line, the scene or a picture given to it is wrong.
     pub fn exit_code(&self) -> u8 {
         match self {

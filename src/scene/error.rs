@@ -20,8 +20,8 @@ pub enum SceneError {
         /// Never empty.
         problems: Vec<LocatedProblem>,
     },
-    /// No built-in scene has this name.
-    #[error("there is no built-in scene \"{name}\"{suggestion}")]
+    /// No built-in scene has this name, and no file.
+    #[error("{name}: there is no such scene, neither a file nor built in{suggestion}")]
     NoSuchExample {
         /// What was asked for.
         name: String,

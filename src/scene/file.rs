@@ -28,10 +28,12 @@ impl SceneFile {
 
     /// The scene that people name: a file, or the built-in scene of this name where there is no such file.
     pub fn find(name: &Path) -> Result<Self, SceneError> {
-        match built_in_scenes().iter().find(|scene| Path::new(scene.name) == name) {
-            Some(scene) if !name.exists() => Self::built_in(scene.name),
-            _ => Self::open(name),
+        let word = name.to_str().filter(|_| !name.exists()).unwrap_or_default();
+        let mut names = built_in_scenes().iter().map(|scene| scene.name);
+        if names.clone().any(|known| known == word) || !suggestion(word, &mut names).is_empty() {
+            return Self::built_in(word);
         }
+        Self::open(name)
     }
 
     /// The built-in scene of this name.

@@ -187,7 +187,7 @@ fn a_texture_that_is_no_image_is_a_scene_mistake() {
 #[test]
 fn command_line_mistakes_end_with_2() {
     let dir = folder();
-    let mistakes: [(&[&str], &str); 9] = [
+    let mistakes: [(&[&str], &str); 10] = [
         (&["render", "ball.toml"], "--output"),
         (&["render", "ball.toml", "-o", "a.jpg"], "ends in .png or .exr"),
         (&["render", "ball.toml", "-o", "no/a.png"], "there is no folder no"),
@@ -196,6 +196,10 @@ fn command_line_mistakes_end_with_2() {
         (&["render", "ball.toml", "-o", "a.png", "--size", "0x4"], "like 640x480"),
         (&["render", "ball.toml", "-o", "a.png", "--threads", "0"], "--threads"),
         (&["render", "nothing.toml", "-o", "a.png"], "nothing.toml: cannot be read"),
+        (
+            &["render", "tepot", "-o", "a.png"],
+            "tepot: there is no such scene, neither a file nor built in; did you mean \"teapot\"?",
+        ),
         (&["bench", "ball.toml", "--reference", "nothing.exr"], "nothing.exr: cannot be read"),
     ];
     for (arguments, message) in mistakes {
