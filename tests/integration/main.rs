@@ -1,5 +1,7 @@
 //! What the program does, seen from outside; one binary, so that it is linked once.
 
+mod bezier;
 mod cli;
 mod closed_forms;
+mod glass;
 mod passes;

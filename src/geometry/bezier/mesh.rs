@@ -5,27 +5,19 @@ use crate::math::Aabb;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
-/// A mesh of quads, and of triangles where an edge of a patch is a point. Corners that fall together share a vertex,
-/// within a patch and between patches; normals and (u, v) belong to the corners of each patch.
+/// A mesh of quads, and of triangles where an edge of a patch is a point. Corners that fall together are one vertex,
+/// within a patch and between patches, so that a closed body is closed here. For programs cut a mesh open where a vertex
+/// has several normals or (u, v), it has one of each, also on a crease or where the patches' parameters differ.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadMesh {
     /// Vertices.
     pub positions: Vec<DVec3>,
-    /// Unit normals `dS/du x dS/dv`, one for each grid point of each patch.
+    /// For each vertex the unit vector along the mean of the normals `dS/du x dS/dv` of the patches that meet there.
     pub normals: Vec<DVec3>,
-    /// Parameters, one for each grid point of each patch.
+    /// For each vertex the parameters (u, v) on the first patch that has it.
     pub parameters: Vec<DVec2>,
-    /// Faces of three or four corners, counter-clockwise seen from where the normals point.
-    pub faces: Vec<Vec<MeshCorner>>,
-}
-
-/// A corner of a face, by indices from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MeshCorner {
-    /// Into `positions`.
-    pub vertex: usize,
-    /// Into `normals` and `parameters`.
-    pub sample: usize,
+    /// Faces by three or four vertices, counter-clockwise seen from where the normals point.
+    pub faces: Vec<Vec<usize>>,
 }
 
 /// Vertices closer than this, relative to the size of all patches, are one: far more than rounding, far less than any
@@ -42,30 +34,33 @@ impl QuadMesh {
         for net in nets {
             mesh.add_patch(&Patch::new(*net), steps, &mut weld);
         }
+        for normal in &mut mesh.normals {
+            *normal = normal.try_normalize().unwrap_or(DVec3::Z);
+        }
         mesh
     }
 
     fn add_patch(&mut self, patch: &Patch, steps: usize, weld: &mut Weld) {
-        let first = self.normals.len();
         let mut vertices = Vec::with_capacity((steps + 1) * (steps + 1));
         for k in 0..(steps + 1) * (steps + 1) {
             let (u, v) = ((k / (steps + 1)) as f64 / steps as f64, (k % (steps + 1)) as f64 / steps as f64);
-            vertices.push(weld.vertex(patch.net().eval(u, v), &mut self.positions));
-            self.normals.push(patch.normal(u, v));
-            self.parameters.push(DVec2::new(u, v));
+            let vertex = weld.vertex(patch.net().eval(u, v), &mut self.positions);
+            if vertex == self.normals.len() {
+                self.normals.push(DVec3::ZERO);
+                self.parameters.push(DVec2::new(u, v));
+            }
+            self.normals[vertex] += patch.normal(u, v);
+            vertices.push(vertex);
         }
         for i in 0..steps {
             for j in 0..steps {
-                let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| {
-                    let k = i * (steps + 1) + j;
-                    MeshCorner { vertex: vertices[k], sample: first + k }
-                });
-                self.faces.extend(face(&corners));
+                let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                self.faces.extend(face(corners.map(|(i, j)| vertices[i * (steps + 1) + j])));
             }
         }
     }
 
-    /// The text of a Wavefront OBJ file with one object: all `v`, `vt` and `vn`, then the faces as `v/vt/vn`.
+    /// The text of a Wavefront OBJ file with one object: the vertices, then the faces.
     pub fn to_obj(&self, name: &str) -> String {
         let mut text = format!("o {name}\n");
         for p in &self.positions {
@@ -79,8 +74,8 @@ impl QuadMesh {
         }
         for face in &self.faces {
             text.push('f');
-            for corner in face {
-                text += &format!(" {}/{sample}/{sample}", corner.vertex + 1, sample = corner.sample + 1);
+            for vertex in face {
+                text += &format!(" {n}/{n}/{n}", n = vertex + 1);
             }
             text.push('\n');
         }
@@ -88,12 +83,12 @@ impl QuadMesh {
     }
 }
 
-/// The face without corners that repeat a vertex; none if fewer than three are left.
-fn face(corners: &[MeshCorner; 4]) -> Option<Vec<MeshCorner>> {
-    let mut face: Vec<MeshCorner> = Vec::with_capacity(4);
-    for corner in corners {
-        if face.iter().all(|c| c.vertex != corner.vertex) {
-            face.push(*corner);
+/// The face without vertices that repeat; none if fewer than three are left.
+fn face(corners: [usize; 4]) -> Option<Vec<usize>> {
+    let mut face: Vec<usize> = Vec::with_capacity(4);
+    for vertex in corners {
+        if !face.contains(&vertex) {
+            face.push(vertex);
         }
     }
     (face.len() >= 3).then_some(face)
@@ -123,5 +118,61 @@ impl Weld {
         self.cells.insert(p.to_array().map(floor), positions.len());
         positions.push(p);
         positions.len() - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cube whose six faces are patches with corners in any order.
+    fn cube() -> Vec<ControlNet> {
+        let face = |axis: usize, side: f64| {
+            let point = |i: usize, j: usize| {
+                let mut p = [0.0; 3];
+                p[axis] = side;
+                p[(axis + 1) % 3] = 2.0 / 3.0 * i as f64 - 1.0;
+                // The other way round on the other side, so that all normals point outward.
+                p[(axis + 2) % 3] = side * (2.0 / 3.0 * j as f64 - 1.0);
+                DVec3::from_array(p)
+            };
+            ControlNet { points: std::array::from_fn(|i| std::array::from_fn(|j| point(i, j))) }
+        };
+        (0..6).map(|k| face(k / 2, [-1.0, 1.0][k % 2])).collect()
+    }
+
+    #[test]
+    fn a_closed_body_is_welded_shut() {
+        let mesh = QuadMesh::new(&cube(), 4);
+        assert_eq!(mesh.faces.len(), 6 * 16);
+        // Euler: a closed quad mesh of genus 0 has two more vertices than faces.
+        assert_eq!((mesh.positions.len(), mesh.parameters.len(), mesh.normals.len()), (98, 98, 98));
+        let mut edges: HashMap<(usize, usize), usize> = HashMap::new();
+        for face in &mesh.faces {
+            for k in 0..face.len() {
+                *edges.entry((face[k], face[(k + 1) % face.len()])).or_default() += 1;
+            }
+        }
+        for (&(a, b), &count) in &edges {
+            assert_eq!((count, edges.get(&(b, a))), (1, Some(&1)), "edge {a} {b} has a face on either side");
+        }
+    }
+
+    #[test]
+    fn collapsed_edges_give_triangles_and_points_give_nothing() {
+        let mut net = cube()[0];
+        net.points[0] = [net.points[0][0]; 4];
+        let mesh = QuadMesh::new(&[net], 3);
+        assert_eq!(mesh.faces.iter().filter(|f| f.len() == 3).count(), 3);
+        assert!(mesh.normals.iter().all(|n| n.is_normalized()));
+        assert!(QuadMesh::new(&[net.map(|_| DVec3::ONE)], 3).faces.is_empty());
+    }
+
+    #[test]
+    fn objs_count_from_one() {
+        let text = QuadMesh::new(&cube()[..1], 1).to_obj("face");
+        let faces: Vec<&str> = text.lines().filter(|line| line.starts_with('f')).collect();
+        assert_eq!(faces, ["f 1/1/1 3/3/3 4/4/4 2/2/2"]);
+        assert_eq!(text.lines().count(), 1 + 4 + 4 + 4 + 1);
     }
 }

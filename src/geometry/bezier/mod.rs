@@ -17,6 +17,6 @@ mod tree;
 mod unit;
 
 pub use bpt::{BptError, BptProblem, read_bpt, write_bpt};
-pub use mesh::{MeshCorner, QuadMesh};
+pub use mesh::QuadMesh;
 pub use net::{ControlNet, Derivatives};
 pub use patch::{Patch, PatchHit};

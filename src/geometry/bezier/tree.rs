@@ -63,6 +63,8 @@ impl PartTree {
         let pieces = cut(net);
         let mut tree = Self::default();
         tree.link(&pieces, 0);
+        tree.nodes.shrink_to_fit();
+        tree.packets.shrink_to_fit();
         tree
     }
 

@@ -1,0 +1,137 @@
+//! Rays against patches whose every root is known from arithmetic in higher precision, in `tests/data/bezier`: well
+//! behaved patches, folds, cusps, collapsed edges, slivers, far from the origin, tiny and huge, random, and the teapot.
+//!
+//! A ray is `clear` if the answer is certain with some margin, `seam` if its nearest hit lies on an edge that two patches
+//! share, and `delicate` if any sane answer will do.
+
+use glam::DVec3;
+use patchlight::geometry::bezier::{ControlNet, Patch};
+use patchlight::geometry::{Aggregate, Primitive};
+use patchlight::math::Ray;
+use std::{collections::HashMap, sync::Arc};
+
+const PATCHES: &str = include_str!("../data/bezier/patches.txt");
+const RAYS: &str = include_str!("../data/bezier/rays.csv");
+const TEAPOT: &str = include_str!("../data/bezier/teapot.txt");
+const TEAPOT_RAYS: &str = include_str!("../data/bezier/teapot.csv");
+
+/// The named patches of a text with lines `patch NAME` and 16 lines of coordinates each.
+fn patches(text: &str) -> Vec<(&str, ControlNet)> {
+    let blocks = text.split("patch ").skip(1);
+    blocks
+        .filter_map(|block| {
+            let mut lines = block.lines();
+            let name = lines.next()?.trim();
+            let points: Vec<DVec3> = lines.map_while(|line| numbers(&line.split(' ').collect::<Vec<_>>())).collect();
+            let row = |i: usize| std::array::from_fn(|j| points[4 * i + j]);
+            (points.len() == 16).then(|| (name, ControlNet { points: std::array::from_fn(row) }))
+        })
+        .collect()
+}
+
+fn numbers(words: &[&str]) -> Option<DVec3> {
+    let numbers: Result<Vec<f64>, _> = words.iter().map(|word| word.parse()).collect();
+    numbers.ok()?.try_into().ok().map(DVec3::from_array)
+}
+
+/// What a table says of a ray.
+struct Case<'a> {
+    ray: Ray,
+    class: &'a str,
+    /// The nearest hit's t, if there is a hit.
+    t: Option<f64>,
+    line: &'a str,
+}
+
+impl<'a> Case<'a> {
+    /// From the fields of origin and direction, and those of t_min, class, number of hits and t.
+    fn new(line: &'a str, fields: &[&'a str], t_min: &str, [class, hits, t]: [&'a str; 3]) -> Self {
+        let (origin, direction) = (numbers(&fields[..3]).unwrap(), numbers(&fields[3..6]).unwrap());
+        let ray = Ray { t_min: t_min.parse().unwrap(), ..Ray::new(origin, direction) };
+        Self { ray, class, t: (hits != "0").then(|| t.parse().unwrap_or(f64::NAN)), line }
+    }
+
+    /// How far off the answer is, in scene units; infinite for a hit instead of a miss or the other way round.
+    fn error(&self, t: Option<f64>) -> f64 {
+        match (self.t, t) {
+            (Some(expected), Some(t)) => (t - expected).abs() * self.ray.direction.length(),
+            (None, None) => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+fn prepared() -> HashMap<&'static str, Patch> {
+    patches(PATCHES).into_iter().map(|(name, net)| (name, Patch::new(net))).collect()
+}
+
+#[test]
+fn every_clear_ray_has_its_answer() {
+    let patches = prepared();
+    assert_eq!(patches.len(), 50);
+    let (mut clear, mut delicate) = (0, 0);
+    for line in RAYS.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let patch = &patches[fields[0]];
+        let case = Case::new(line, &fields[2..], fields[8], [fields[9], fields[10], fields[11]]);
+        let hit = patch.intersect(&case.ray);
+        if let Some(hit) = hit {
+            assert!(
+                hit.t > case.ray.t_min && (0.0..=1.0).contains(&hit.u) && (0.0..=1.0).contains(&hit.v),
+                "{line}: {hit:?}"
+            );
+            assert!(patch.normal(hit.u, hit.v).is_normalized(), "{line}");
+            // The reported t is that of the point nearest to S(u, v), which lies within 1e-9 of the ray, the size of a
+            // touching piece. Computing that point far from the origin rounds to a few ulp of the coordinates.
+            let bounds = patch.bounds();
+            let off = patch.net().eval(hit.u, hit.v).distance(case.ray.at(hit.t));
+            let far = case.ray.origin.length() + bounds.max.length();
+            assert!(off < 3e-9 * bounds.diagonal() + 1e-15 * far, "{line}: S(u, v) is {off} off the ray");
+        }
+        if case.class == "delicate" {
+            delicate += 1;
+            continue;
+        }
+        clear += 1;
+        // 1e-6 of the size is the smallest margin of a clear ray; along the ray it grows by 1 / cos, at most 1e2.
+        assert!(case.error(hit.map(|h| h.t)) < 1e-4 * patch.bounds().diagonal(), "{line}: {hit:?}");
+        assert_eq!(patch.occluded(&case.ray), case.t.is_some(), "{line}");
+    }
+    assert!(clear > 3000 && delicate > 300, "{clear} clear, {delicate} delicate");
+}
+
+#[test]
+fn hits_are_exact() {
+    let patches = prepared();
+    let (mut sum, mut largest, mut count) = (0.0, 0f64, 0);
+    for line in RAYS.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let patch = &patches[fields[0]];
+        let net = patch.net();
+        let case = Case::new(line, &fields[2..], fields[8], [fields[9], fields[10], fields[11]]);
+        let (Some(_), "clear", Some(hit)) = (case.t, case.class, patch.intersect(&case.ray)) else { continue };
+        let expected = net.eval(fields[12].parse().unwrap(), fields[13].parse().unwrap());
+        let error = net.eval(hit.u, hit.v).distance(expected) / net.bounds().diagonal();
+        (sum, largest, count) = (sum + error, largest.max(error), count + 1);
+    }
+    // Rounding of coordinates 1e5 times the size of a patch makes 1e-11; the rest is exact to 1e-12.
+    assert!(sum / f64::from(count) < 1e-11 && largest < 1e-9, "mean {} largest {largest}", sum / f64::from(count));
+}
+
+#[test]
+fn no_ray_slips_between_two_patches() {
+    let nets: Vec<ControlNet> = patches(TEAPOT).into_iter().map(|(_, net)| net).collect();
+    let teapot = Aggregate::new(nets.iter().map(|net| Primitive::Patch(Arc::new(Patch::new(*net)))).collect());
+    let size = teapot.bounds().diagonal();
+    let mut seams = 0;
+    for line in TEAPOT_RAYS.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let case = Case::new(line, &fields[1..], "0", [fields[7], fields[8], fields[9]]);
+        let hit = teapot.closest_hit(&case.ray);
+        seams += usize::from(case.class == "seam");
+        assert!(hit.is_none_or(|hit| hit.t.is_finite()), "{}", case.line);
+        // As much as patches may differ on a shared edge whose points are given in single precision.
+        assert!(case.class == "delicate" || case.error(hit.map(|h| h.t)) < 1e-5 * size, "{line}: {hit:?}");
+    }
+    assert!(seams > 500, "{seams} seams");
+}

@@ -1,0 +1,87 @@
+//! Photons in a closed glass body of Bezier patches: none ends up on the wrong side.
+
+use glam::DVec3;
+use patchlight::geometry::bezier::{ControlNet, Patch};
+use patchlight::geometry::{Aggregate, Primitive};
+use patchlight::math::float::SELF_HIT_OFFSET;
+use patchlight::math::{Ray, Sampler, Stream, warp};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// How often a photon may meet the surface.
+const MAX_DEPTH: usize = 32;
+
+/// A rounded cube with dents: six faces whose edges run on a sphere, all normals outward. Rays meet it up to four times.
+fn body() -> Aggregate {
+    let face = |axis: usize, side: f64| {
+        let point = |i: usize, j: usize| {
+            let mut p = [0.0; 3];
+            p[axis] = side;
+            p[(axis + 1) % 3] = 2.0 / 3.0 * i as f64 - 1.0;
+            p[(axis + 2) % 3] = side * (2.0 / 3.0 * j as f64 - 1.0);
+            let inner = (1..=2).contains(&i) && (1..=2).contains(&j);
+            DVec3::from_array(p).normalize() * if inner && side < 0.0 { 0.6 } else { 1.3 }
+        };
+        ControlNet { points: std::array::from_fn(|i| std::array::from_fn(|j| point(i, j))) }
+    };
+    let patch = |k: usize| Primitive::Patch(Arc::new(Patch::new(face(k / 2, [-1.0, 1.0][k % 2]))));
+    Aggregate::new((0..6).map(patch).collect())
+}
+
+/// What became of photons: surfaces met, and how many of them from the wrong side or not at all.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    met: u64,
+    wrong: u64,
+}
+
+/// Follows one photon from outside: it is reflected or refracted with the same chance, and must be outside again at the
+/// end, or have met every surface from the side on which it is.
+fn follow(body: &Aggregate, index: u64) -> Tally {
+    let mut sampler = Sampler::new(5, Stream::Test, 0, index);
+    let from = 4.0 * warp::uniform_sphere(sampler.next_2d());
+    let to = warp::uniform_sphere(sampler.next_2d()) * 1.2;
+    let mut ray = Ray::new(from, to - from);
+    let mut inside = false;
+    let mut tally = Tally::default();
+    for _ in 0..MAX_DEPTH {
+        let Some(hit) = body.closest_hit(&ray) else {
+            tally.wrong += u64::from(inside);
+            return tally;
+        };
+        tally.met += 1;
+        let (position, normal) = body.primitives()[hit.primitive as usize].surface(&ray, &hit);
+        let direction = ray.direction.normalize();
+        if (direction.dot(normal) > 0.0) != inside {
+            tally.wrong += 1;
+            return tally;
+        }
+        let side = if inside { -normal } else { normal };
+        let eta = if inside { 1.0 / 1.5 } else { 1.5 };
+        let refracted = refract(direction, side, eta).filter(|_| sampler.next_1d() < 0.5);
+        let onward = refracted.unwrap_or_else(|| direction - 2.0 * direction.dot(side) * side);
+        inside ^= refracted.is_some();
+        let outward = if onward.dot(normal) > 0.0 { normal } else { -normal };
+        ray = Ray::new(position + SELF_HIT_OFFSET * position.abs().max_element() * outward, onward);
+    }
+    tally
+}
+
+/// Snell's law with the index of refraction beyond the surface relative to that before it; none for total reflection.
+fn refract(direction: DVec3, side: DVec3, eta: f64) -> Option<DVec3> {
+    let cos = -direction.dot(side);
+    let sin_squared = (1.0 - cos * cos) / (eta * eta);
+    (sin_squared < 1.0).then(|| direction / eta + (cos / eta - (1.0 - sin_squared).sqrt()) * side)
+}
+
+#[test]
+fn no_photon_ends_up_on_the_wrong_side() {
+    let photons = std::env::var("PHOTONS").ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_000);
+    let body = body();
+    let tally = (0..photons)
+        .into_par_iter()
+        .map(|index| follow(&body, index))
+        .reduce(Tally::default, |a, b| Tally { met: a.met + b.met, wrong: a.wrong + b.wrong });
+    assert!(tally.met > 2 * photons, "most photons meet the body several times: {tally:?}");
+    assert_eq!(tally.wrong, 0, "{tally:?}");
+}
