@@ -119,7 +119,7 @@ impl Editor {
                 progress_ui(ui, &self.document, &self.rendering, commands);
             });
         });
-        Panel::right("scene").default_size(350.0).min_size(340.0).show(ui, |ui| {
+        Panel::right("scene").default_size(360.0).min_size(356.0).show(ui, |ui| {
             Panel::top("outline").resizable(true).default_size(280.0).min_size(80.0).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
             });

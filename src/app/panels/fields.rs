@@ -7,7 +7,7 @@ use glam::DVec3;
 use std::ops::RangeInclusive;
 
 /// Room for a sign and seven digits, screen points.
-const FIELD_SIZE: [f32; 2] = [66.0, 20.0];
+const FIELD_SIZE: [f32; 2] = [60.0, 20.0];
 
 /// How a number is entered.
 #[derive(Clone, Debug)]
