@@ -32,11 +32,6 @@ impl Sphere {
         if counts(near) { Some(near) } else { counts(far).then_some(far) }
     }
 
-    /// The point of the sphere closest to one that should lie on it.
-    pub fn project(&self, p: DVec3) -> DVec3 {
-        self.center + self.radius * self.normal(p)
-    }
-
     /// The outward unit normal at a point.
     pub fn normal(&self, p: DVec3) -> DVec3 {
         (p - self.center).normalize_or(DVec3::Y)

@@ -44,9 +44,4 @@ impl Frame {
     pub fn world_from_local(&self, v: DVec3) -> DVec3 {
         v.x * self.tangent + v.y * self.bitangent + v.z * self.normal
     }
-
-    /// Local coordinates of a world vector.
-    pub fn local_from_world(&self, v: DVec3) -> DVec3 {
-        DVec3::new(v.dot(self.tangent), v.dot(self.bitangent), v.dot(self.normal))
-    }
 }

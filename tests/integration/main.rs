@@ -3,5 +3,6 @@
 mod bezier;
 mod cli;
 mod closed_forms;
+mod engine;
 mod glass;
 mod passes;

@@ -1,0 +1,112 @@
+//! The engine: drafts first, newest scene wins, pause, restart, failures.
+
+use crate::closed_forms::scene;
+use patchlight::engine::{Command, Engine, EngineSettings, Frame, Status};
+use patchlight::scene::SceneFile;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Long enough for the slowest machine; nothing waits this long unless it fails.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+fn room(radius: f64) -> Arc<SceneFile> {
+    Arc::new(scene(&format!(
+        "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 64\nheight = 48
+        [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5
+        [[material]]\nname = \"wall\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.4, 0.3]
+        [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = {radius}\nmaterial = \"glass\"
+        [[object]]\nname = \"floor\"\ntype = \"plane\"\npoint = [0,-1,0]\nnormal = [0,1,0]\nmaterial = \"wall\"
+        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [1, 1.5, 1]\nintensity = [2, 2, 2]\n"
+    )))
+}
+
+fn engine() -> Engine {
+    Engine::start(EngineSettings { threads: Some(2), seed: 1 }, || {}).expect("threads")
+}
+
+fn wait_for<T>(mut condition: impl FnMut() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(found) = condition() {
+            return found;
+        }
+        assert!(start.elapsed() < PATIENCE, "the engine did not get there");
+        std::thread::yield_now();
+    }
+}
+
+fn frame_where(engine: &Engine, condition: impl Fn(&Frame) -> bool) -> Arc<Frame> {
+    wait_for(|| engine.newest_frame().filter(|frame| condition(frame)))
+}
+
+#[test]
+fn a_draft_comes_first_and_then_the_picture() {
+    let engine = engine();
+    assert_eq!(engine.status(), Status::Idle);
+    engine.send(Command::Show(room(0.5)));
+    let first = wait_for(|| engine.newest_frame());
+    assert!(first.draft || first.iteration >= 1, "the first frame is a draft, unless the picture was faster");
+    let later = frame_where(&engine, |frame| frame.iteration >= 3);
+    assert_eq!((later.image.width, later.image.height, later.generation), (64, 48, 1));
+    assert!(later.stats.photons_emitted > 0 && later.stats.seconds > 0.0 && later.stats.error_estimate.is_some());
+}
+
+/// During a fast drag every edit outdates the one before: pictures appear all the same, in order, and the last edit's
+/// picture is what remains.
+#[test]
+fn a_fast_drag_shows_pictures_all_along() {
+    let engine = engine();
+    let (mut shown, mut newest) = (0, 0);
+    for edit in 1..=60 {
+        engine.send(Command::Show(room(0.3 + 0.005 * f64::from(edit))));
+        let until = Instant::now() + Duration::from_millis(16);
+        while Instant::now() < until {
+            if let Some(frame) = engine.newest_frame() {
+                assert!(frame.generation >= newest, "never back to an older scene");
+                (shown, newest) = (shown + 1, frame.generation);
+            }
+            std::thread::yield_now();
+        }
+    }
+    assert!(shown >= 5, "{shown} pictures in a drag of 60 edits");
+    assert_eq!(frame_where(&engine, |frame| !frame.draft).generation, 60);
+}
+
+#[test]
+fn pause_holds_and_restart_begins_again() {
+    let engine = engine();
+    engine.send(Command::Show(room(0.5)));
+    frame_where(&engine, |frame| frame.iteration >= 2);
+    engine.send(Command::Pause);
+    wait_for(|| (engine.status() == Status::Paused).then_some(()));
+    let held = wait_for(|| engine.newest_frame());
+    std::thread::sleep(Duration::from_millis(100));
+    assert!(engine.newest_frame().is_none(), "nothing comes while it pauses");
+    engine.send(Command::Resume);
+    frame_where(&engine, |frame| frame.iteration > held.iteration);
+    engine.send(Command::Restart);
+    let again = frame_where(&engine, |frame| frame.generation == 2);
+    assert!(again.iteration <= held.iteration + 1, "begun again");
+}
+
+#[test]
+fn a_scene_that_cannot_be_rendered_says_why_and_harms_no_other() {
+    let mut broken = (*room(0.5)).clone();
+    "nothing".clone_into(&mut broken.scene.objects[0].material);
+    let engine = engine();
+    engine.send(Command::Show(Arc::new(broken)));
+    let reason = wait_for(|| if let Status::Failed(reason) = engine.status() { Some(reason) } else { None });
+    assert!(reason.contains("`ball`") && reason.contains("`nothing`"), "{reason}");
+    engine.send(Command::Show(room(0.5)));
+    assert_eq!(frame_where(&engine, |frame| frame.iteration >= 1).generation, 2);
+}
+
+#[test]
+fn dropping_the_engine_ends_its_thread_soon() {
+    let engine = engine();
+    engine.send(Command::Show(room(0.5)));
+    wait_for(|| engine.newest_frame());
+    let start = Instant::now();
+    drop(engine);
+    assert!(start.elapsed() < Duration::from_secs(10), "the drop joined after {:?}", start.elapsed());
+}
