@@ -7,7 +7,7 @@ use super::photon::{PackedDirection, Photon};
 use crate::math::Rgb;
 use glam::Vec3;
 use rayon::prelude::*;
-use wide::{CmpLe, CmpLt, f32x8, u32x8};
+use wide::{f32x8, u32x8};
 
 /// Photons in a leaf at most, unless they are in the same place.
 const LEAF_SIZE: usize = 32;
