@@ -65,6 +65,7 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
 }
 
 /// A primitive whose tree is not built yet.
+#[allow(clippy::large_enum_variant, reason = "lives only while the tree is built; most of a large scene are patches")]
 enum Description {
     Ready(Primitive),
     Patch(ControlNet),

@@ -1,5 +1,7 @@
 //! What the program does, seen from outside; one binary, so that it is linked once.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on has failed")]
+
 mod bezier;
 mod cli;
 mod closed_forms;
