@@ -21,7 +21,7 @@ impl Sphere {
         let b = -f.dot(ray.direction);
         let across = f + (b / a) * ray.direction;
         let discriminant = self.radius * self.radius - across.length_squared();
-        if !(discriminant >= 0.0) {
+        if discriminant < 0.0 || discriminant.is_nan() {
             return None;
         }
         let c = f.length_squared() - self.radius * self.radius;

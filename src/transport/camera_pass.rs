@@ -275,7 +275,7 @@ impl Walk<'_> {
         let strength = branch.throughput.max_element();
         if strength < WEAK_BRANCH {
             let survival = strength / WEAK_BRANCH;
-            if !(sampler.next_1d() < f64::from(survival)) {
+            if sampler.next_1d() >= f64::from(survival) {
                 return;
             }
             branch.throughput /= survival;

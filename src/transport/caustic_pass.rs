@@ -182,7 +182,7 @@ impl<'a> Walk<'a> {
         let mut flux = flux;
         if strength < weak {
             let survival = strength / weak;
-            if !(sampler.next_1d() < f64::from(survival)) {
+            if sampler.next_1d() >= f64::from(survival) {
                 return;
             }
             flux /= survival;

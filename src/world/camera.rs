@@ -65,7 +65,7 @@ impl Camera {
     pub fn project(&self, point: DVec3) -> Option<Projected> {
         let offset = point - self.position;
         let depth = offset.dot(self.forward);
-        if !(depth > 0.0) {
+        if depth <= 0.0 || depth.is_nan() {
             return None;
         }
         let scale = 1.0 / (depth * self.pixel_side);

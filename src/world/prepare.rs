@@ -68,7 +68,7 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
 #[allow(clippy::large_enum_variant, reason = "lives only while the tree is built; most of a large scene are patches")]
 enum Description {
     Ready(Primitive),
-    Patch(ControlNet),
+    Patch(Box<ControlNet>),
 }
 
 fn light(light: &scene::Light) -> Light {
@@ -93,7 +93,7 @@ fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Su
         if let Shape::Bezier(bezier) = &object.shape {
             let nets = placed_nets(bezier);
             surfaces.extend(shared_edges(&nets).into_iter().map(surface));
-            descriptions.extend(nets.into_iter().map(Description::Patch));
+            descriptions.extend(nets.into_iter().map(|net| Description::Patch(Box::new(net))));
         } else {
             surfaces.push(surface(SharedEdges::default()));
             descriptions.push(Description::Ready(simple_primitive(&object.shape)));
@@ -134,10 +134,10 @@ fn aggregate(descriptions: Vec<Description>, previous: Option<&World>) -> Aggreg
         .enumerate()
         .map(|(index, description)| match (description, old.get(index)) {
             (Description::Ready(primitive), _) => primitive,
-            (Description::Patch(net), Some(Primitive::Patch(patch))) if *patch.net() == net => {
+            (Description::Patch(net), Some(Primitive::Patch(patch))) if *patch.net() == *net => {
                 Primitive::Patch(patch.clone())
             }
-            (Description::Patch(net), _) => Primitive::Patch(Arc::new(Patch::new(net))),
+            (Description::Patch(net), _) => Primitive::Patch(Arc::new(Patch::new(*net))),
         })
         .collect();
     let same_kinds = old.len() == primitives.len()

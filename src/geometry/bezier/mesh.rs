@@ -147,7 +147,7 @@ mod tests {
         assert_eq!(mesh.faces.len(), 6 * 16);
         // Euler: a closed quad mesh of genus 0 has two more vertices than faces.
         assert_eq!((mesh.positions.len(), mesh.parameters.len(), mesh.normals.len()), (98, 98, 98));
-        let mut edges: HashMap<(usize, usize), usize> = HashMap::new();
+        let mut edges = std::collections::BTreeMap::<(usize, usize), usize>::new();
         for face in &mesh.faces {
             for k in 0..face.len() {
                 *edges.entry((face[k], face[(k + 1) % face.len()])).or_default() += 1;
