@@ -8,3 +8,5 @@ mod closed_forms;
 mod engine;
 mod glass;
 mod passes;
+#[cfg(feature = "gui")]
+mod window;
