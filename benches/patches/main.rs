@@ -2,6 +2,8 @@
 //!
 //! Incoherent rays come from all around and aim at points of the surface; coherent ones are those of a camera.
 
+#![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
+
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DVec2, DVec3};
 use patchlight::geometry::bezier::{ControlNet, Patch, QuadMesh, read_bpt};

@@ -18,10 +18,10 @@ impl NewtonPatch {
     }
 
     fn intersect(&self, ray: &Ray) -> Option<f64> {
-        (0..STARTS).filter_map(|start| self.from_start(ray, start)).min_by(f64::total_cmp)
+        (0..STARTS).filter_map(|start| self.root_from(ray, start)).min_by(f64::total_cmp)
     }
 
-    fn from_start(&self, ray: &Ray, start: u64) -> Option<f64> {
+    fn root_from(&self, ray: &Ray, start: u64) -> Option<f64> {
         let mut sampler = Sampler::new(ray.direction.x.to_bits(), Stream::Test, 0, start);
         let mut x = DVec3::new(sampler.next_1d(), sampler.next_1d(), 1.0);
         for _ in 0..STEPS {
