@@ -116,8 +116,7 @@ impl Paraboloid {
         let one = [[1.0; 4]; 4];
         let residual =
             sum_of_products([(gamma, &one, 1.0), (alpha, &half_gradient_a, -1.0), (beta, &half_gradient_b, -1.0)]);
-        let (low, high) =
-            residual.iter().flatten().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (x.min(l), x.max(h)));
+        let (low, high) = range(&residual);
         self.offset = f64::from((0.5 * (low + high)) as f32);
         let [by_s, by_t] = largest_derivatives(&residual, 3.0);
         // From derivatives by (s, t) to those by (alpha, beta): the inverse of a Jacobian that differs from 1 by `shear`.
@@ -175,12 +174,16 @@ fn shear(alpha: &Bernstein, beta: &Bernstein) -> f64 {
 fn sum_of_products(terms: [(&Bernstein, &Bernstein, f64); 3]) -> [[f64; 7]; 7] {
     const CUBIC: [f64; 4] = [1.0, 3.0, 3.0, 1.0];
     const SEXTIC: [f64; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
+    let scaled = |values: &Bernstein| -> Bernstein { from_fn(|i| from_fn(|j| CUBIC[i] * CUBIC[j] * values[i][j])) };
     let mut sum = [[0f64; 7]; 7];
     for (a, b, factor) in terms {
-        for k in 0..16 {
-            let scaled = factor * CUBIC[k / 4] * CUBIC[k % 4] * a[k / 4][k % 4];
-            for m in 0..16 {
-                sum[k / 4 + m / 4][k % 4 + m % 4] += scaled * CUBIC[m / 4] * CUBIC[m % 4] * b[m / 4][m % 4];
+        let (a, b) = (scaled(a), scaled(b));
+        for i in 0..16 {
+            let weight = factor * a[i / 4][i % 4];
+            for (row, values) in sum[i / 4..].iter_mut().zip(&b) {
+                for (entry, value) in row[i % 4..].iter_mut().zip(values) {
+                    *entry += weight * value;
+                }
             }
         }
     }

@@ -12,9 +12,9 @@ use wide::f32x4;
 
 /// Parts with [`turns`] below this stay whole: nearly every ray is then decided by the paraboloids and three Newton
 /// steps.
-const FLAT_ENOUGH: f64 = 0.06;
+const FLAT_ENOUGH: f64 = 0.08;
 
-/// Limit of the number of parts, for the sake of memory and of build time; 64 KiB would hold twice as many.
+/// Limit of the number of parts, for the sake of memory and of build time: 64 KiB hold no more.
 const MAX_PARTS: usize = 256;
 
 /// Halvings after which a part that does not get flatter (a cusp, a collapsed edge) is left to subdivision.
