@@ -5,10 +5,11 @@
 //! share, and `delicate` if any sane answer will do.
 
 use glam::DVec3;
-use patchlight::geometry::bezier::{ControlNet, Patch};
+use patchlight::geometry::bezier::{ControlNet, Patch, read_bpt};
 use patchlight::geometry::{Aggregate, Primitive};
 use patchlight::math::Ray;
-use std::{collections::HashMap, sync::Arc};
+use std::process::{Command, Output};
+use std::{collections::HashMap, fs, sync::Arc};
 
 const PATCHES: &str = include_str!("../data/bezier/patches.txt");
 const RAYS: &str = include_str!("../data/bezier/rays.csv");
@@ -134,4 +135,49 @@ fn no_ray_slips_between_two_patches() {
         assert!(case.class == "delicate" || case.error(hit.map(|h| h.t)) < 1e-5 * size, "{line}: {hit:?}");
     }
     assert!(seams > 500, "{seams} seams");
+}
+
+fn patchlight(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_patchlight")).args(arguments).output().unwrap()
+}
+
+#[test]
+fn the_command_line_gives_the_same_answers() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str, text: &str| {
+        fs::write(dir.path().join(name), text).unwrap();
+        dir.path().join(name).to_str().unwrap().to_owned()
+    };
+    let header = "ox,oy,oz,dx,dy,dz,tmin\n";
+    let (patches, rays) =
+        (path("patches.txt", PATCHES), path("rays.csv", &format!("{header}0.5,0.25,2,0,0,-4,0\n9,9,9,0,0,1,\n")));
+    let output = patchlight(&["intersect", &patches, &rays, "--patch", "flat"]);
+    let lines: Vec<String> = String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect();
+    let numbers: Vec<f64> = lines[0].split(',').map(|word| word.parse().unwrap()).collect();
+    // The points of the patch are thirds in single precision, so u and v are off by up to 1e-8.
+    for (number, expected) in numbers.iter().zip([1.0, 0.5, 0.5, 0.25]) {
+        assert!((number - expected).abs() < 1e-7, "{lines:?}");
+    }
+    assert_eq!((numbers.len(), lines[1].as_str(), lines.len()), (4, "0,,,", 2));
+
+    let wrong = path("wrong.csv", &format!("{header}1,2,3,4,5,x,0\n"));
+    let output = patchlight(&["intersect", &patches, &wrong]);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("wrong.csv: line 2: expected a finite number for dz, found `x`"), "{message}");
+}
+
+#[test]
+fn what_is_exported_reads_back() {
+    let dir = tempfile::tempdir().unwrap();
+    let to = |name: &str| dir.path().join(name).to_str().unwrap().to_owned();
+    assert!(patchlight(&["export", "teapot", "-o", &to("teapot.bpt")]).status.success());
+    let nets = read_bpt(&fs::read_to_string(to("teapot.bpt")).unwrap()).unwrap();
+    assert_eq!(nets.len(), 32);
+    assert!(patchlight(&["export", "teapot", "-o", &to("teapot.obj"), "--steps", "3"]).status.success());
+    let text = fs::read_to_string(to("teapot.obj")).unwrap();
+    let count = |start: &str| text.lines().filter(|line| line.starts_with(start)).count();
+    assert_eq!((count("f "), count("vn ")), (32 * 9, count("v ")));
+    let output = patchlight(&["export", "teapot", "-o", &to("teapot.stl")]);
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
 }
