@@ -24,6 +24,7 @@ mod gather;
 mod guide;
 mod kernel;
 mod medium;
+mod morton;
 mod photon;
 mod photon_map;
 mod photon_pass;

@@ -3,16 +3,14 @@
 //! Sorting the photons by Morton code is the whole construction: every node is a range of the sorted array, split
 //! where the highest differing bit of the codes changes. Leaves keep their photons in columns, side by side.
 
+use super::morton::{self, Coded};
 use super::photon::{PackedDirection, Photon};
 use crate::math::Rgb;
 use glam::Vec3;
-use rayon::prelude::*;
 use wide::{f32x8, u32x8};
 
 /// Photons in a leaf at most, unless they are in the same place.
 const LEAF_SIZE: usize = 32;
-/// Bits of a Morton code: 11 for x, 11 for y, 10 for z.
-const DIGIT_BITS: u32 = 11;
 
 /// A node of the tree in depth-first order.
 #[derive(Clone, Copy, Debug)]
@@ -65,11 +63,15 @@ impl Query {
 impl PhotonMap {
     /// The map of these photons. Depends on their order only among photons in the same place.
     pub fn build(photons: &[Photon]) -> Self {
-        let order = morton_order(photons);
+        let mut tree = Tree { photons, order: morton::order(photons), nodes: Vec::with_capacity(photons.len() / 4) };
+        if !photons.is_empty() {
+            tree.build_node(0, photons.len());
+        }
+        let Tree { order, nodes, .. } = tree;
         let column = |f: fn(&Photon) -> f32| in_order(photons, &order, f);
         let bits = |f: fn(&Photon) -> u32| in_order(photons, &order, f);
-        let mut map = Self {
-            nodes: Vec::with_capacity(photons.len() / 4),
+        Self {
+            nodes,
             x: column(|p| p.position.x),
             y: column(|p| p.position.y),
             z: column(|p| p.position.z),
@@ -78,41 +80,7 @@ impl PhotonMap {
             blue: column(|p| p.flux.z),
             tag: bits(|p| p.tag),
             wi: bits(|p| p.wi.bits()),
-        };
-        let codes: Vec<u32> = order.iter().map(|&(code, _)| code).collect();
-        if !codes.is_empty() {
-            map.build_node(&codes, 0, codes.len());
         }
-        map
-    }
-
-    /// Appends the subtree over a range and returns its box.
-    fn build_node(&mut self, codes: &[u32], start: usize, end: usize) -> (Vec3, Vec3) {
-        let index = self.nodes.len();
-        let count = end - start;
-        self.nodes.push(Node { min: Vec3::ZERO, max: Vec3::ZERO, start: start as u32, count: 0, skip: 0 });
-        let differing = codes[start] ^ codes[end - 1];
-        let (min, max) = if count <= LEAF_SIZE || differing == 0 {
-            self.nodes[index].count = count as u32;
-            self.range_bounds(start, end)
-        } else {
-            let bit = 1 << differing.ilog2();
-            let middle = start + codes[start..end].partition_point(|code| code & bit == 0);
-            let (left, right) = (self.build_node(codes, start, middle), self.build_node(codes, middle, end));
-            (left.0.min(right.0), left.1.max(right.1))
-        };
-        let skip = self.nodes.len() as u32;
-        let node = &mut self.nodes[index];
-        (node.min, node.max, node.skip) = (min, max, skip);
-        (min, max)
-    }
-
-    fn range_bounds(&self, start: usize, end: usize) -> (Vec3, Vec3) {
-        let extent = |column: &[f32]| {
-            column[start..end].iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)))
-        };
-        let ((x0, x1), (y0, y1), (z0, z1)) = (extent(&self.x), extent(&self.y), extent(&self.z));
-        (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
     }
 
     /// The number of photons.
@@ -260,65 +228,57 @@ fn kernel_weight(query: &Query, inverse_radius_sq: f32, position: Vec3, tag: u32
     if weight > 0.0 && near_plane && right_tag { weight } else { 0.0 }
 }
 
+/// The nodes while they are built.
+struct Tree<'a> {
+    photons: &'a [Photon],
+    order: Vec<Coded>,
+    nodes: Vec<Node>,
+}
+
+impl Tree<'_> {
+    /// Appends the subtree over a range and returns its box.
+    fn build_node(&mut self, start: usize, end: usize) -> (Vec3, Vec3) {
+        let index = self.nodes.len();
+        self.nodes.push(Node { min: Vec3::ZERO, max: Vec3::ZERO, start: start as u32, count: 0, skip: 0 });
+        let (min, max) = if let Some(middle) = self.split(start, end) {
+            let (left, right) = (self.build_node(start, middle), self.build_node(middle, end));
+            (left.0.min(right.0), left.1.max(right.1))
+        } else {
+            self.nodes[index].count = (end - start) as u32;
+            self.bounds(start, end)
+        };
+        let skip = self.nodes.len() as u32;
+        let node = &mut self.nodes[index];
+        (node.min, node.max, node.skip) = (min, max, skip);
+        (min, max)
+    }
+
+    /// Where the highest differing bit of the codes changes; `None` for a leaf.
+    fn split(&mut self, start: usize, end: usize) -> Option<usize> {
+        if end - start <= LEAF_SIZE {
+            return None;
+        }
+        let differing = |order: &[Coded]| order[start].code ^ order[end - 1].code;
+        if differing(&self.order) == 0 {
+            // All in one cell of the grid: a finer grid over this cell alone tells them apart.
+            morton::refine(self.photons, &mut self.order[start..end]);
+        }
+        let bit = differing(&self.order).checked_ilog2()?;
+        Some(start + self.order[start..end].partition_point(|item| item.code >> bit & 1 == 0))
+    }
+
+    fn bounds(&self, start: usize, end: usize) -> (Vec3, Vec3) {
+        let positions = self.order[start..end].iter().map(|item| self.photons[item.index as usize].position);
+        positions.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
+    }
+}
+
 /// One value of each photon in the order of the map, and zeros that the last vector of instructions may read.
-fn in_order<T: Default + Send>(photons: &[Photon], order: &[(u32, u32)], value: fn(&Photon) -> T) -> Vec<T> {
+fn in_order<T: Default + Send>(photons: &[Photon], order: &[Coded], value: fn(&Photon) -> T) -> Vec<T> {
     let mut values = Vec::with_capacity(order.len() + LANES);
-    values.extend(order.iter().map(|&(_, i)| value(&photons[i as usize])));
+    values.extend(order.iter().map(|item| value(&photons[item.index as usize])));
     values.extend((0..LANES).map(|_| T::default()));
     values
-}
-
-/// (Morton code, index) of every photon, sorted by code, stable.
-fn morton_order(photons: &[Photon]) -> Vec<(u32, u32)> {
-    let (min, max) = photons
-        .par_iter()
-        .with_min_len(1 << 14)
-        .fold(|| (Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), p| (min.min(p.position), max.max(p.position)))
-        .reduce(|| (Vec3::INFINITY, Vec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    // The longest axis sets the scale of all, so that cells are cubes; the shortest gets the bit less.
-    let scale = 2047.0 / (max - min).max_element().max(f32::MIN_POSITIVE);
-    let code = |p: Vec3| {
-        let cell = ((p - min) * scale).min(Vec3::splat(2047.0));
-        interleave(cell.x as u32) << 2 | interleave(cell.y as u32) << 1 | interleave(cell.z as u32)
-    };
-    let mut order: Vec<(u32, u32)> = photons
-        .par_iter()
-        .with_min_len(1 << 14)
-        .enumerate()
-        .map(|(i, photon)| ((code(photon.position) >> 1) as u32, i as u32))
-        .collect();
-    radix_sort(&mut order);
-    order
-}
-
-/// Every third bit of the result is a bit of the 11-bit argument.
-fn interleave(x: u32) -> u64 {
-    let x = (x | x << 16) & 0x0700_00ff;
-    let x = (x | x << 8) & 0x0700_f00f;
-    let x = (x | x << 4) & 0x430c_30c3;
-    u64::from((x | x << 2) & 0x4924_9249)
-}
-
-/// Sorts by code, least significant digit first, stable.
-fn radix_sort(items: &mut Vec<(u32, u32)>) {
-    let mut other = vec![(0, 0); items.len()];
-    for shift in [0, DIGIT_BITS, 2 * DIGIT_BITS] {
-        let digit = |code: u32| (code >> shift) as usize & ((1 << DIGIT_BITS) - 1);
-        let mut starts = [0u32; 1 << DIGIT_BITS];
-        for &(code, _) in items.iter() {
-            starts[digit(code)] += 1;
-        }
-        let mut sum = 0;
-        for start in &mut starts {
-            sum += std::mem::replace(start, sum);
-        }
-        for &item in items.iter() {
-            let place = &mut starts[digit(item.0)];
-            other[*place as usize] = item;
-            *place += 1;
-        }
-        std::mem::swap(items, &mut other);
-    }
 }
 
 #[cfg(test)]
@@ -348,11 +308,15 @@ mod tests {
         let plane = |s: &mut Sampler| Vec3::new(s.next_1d() as f32, 0.25, s.next_1d() as f32);
         let line = |s: &mut Sampler| Vec3::new(0.0, 1e-3 * s.next_1d() as f32, 0.0);
         let point = |_: &mut Sampler| Vec3::splat(0.5);
-        let places: [&dyn Fn(&mut Sampler) -> Vec3; 4] = [&unit, &plane, &line, &point];
+        // A far one puts all others into one cell of the grid.
+        let far = |s: &mut Sampler| if s.next_1d() < 0.01 { 1e7 * unit(s) } else { unit(s) };
+        let places: [&dyn Fn(&mut Sampler) -> Vec3; 5] = [&unit, &plane, &line, &point, &far];
         for (place, count) in places.into_iter().flat_map(|p| [0, 1, 7, 16, 17, 4000].map(|n| (p, n))) {
             let photons = photons(count, place);
             let map = PhotonMap::build(&photons);
             assert_eq!(map.len(), photons.len());
+            let largest = map.nodes.iter().map(|node| node.count as usize).max().unwrap_or(0);
+            assert!(largest <= LEAF_SIZE || photons.iter().all(|p| p.position == photons[0].position), "{largest}");
             for k in 0..50 {
                 let mut s = Sampler::new(2, Stream::Test, 5, k);
                 let position = place(&mut s);
