@@ -39,7 +39,7 @@ pub(crate) struct Editor {
     /// For the engine, in this order.
     pub(crate) outbox: Vec<engine::Command>,
     checked: Option<Arc<SceneFile>>,
-    rendered: Option<Arc<SceneFile>>,
+    pub(super) rendered: Option<Arc<SceneFile>>,
 }
 
 impl Editor {
@@ -147,7 +147,7 @@ impl Editor {
 }
 
 /// Whether two scenes have the same radiance in every pixel: names of things do not count, nor how the picture is shown.
-fn same_picture(a: &SceneFile, b: &SceneFile) -> bool {
+pub(super) fn same_picture(a: &SceneFile, b: &SceneFile) -> bool {
     let without_display = |file: &SceneFile| {
         let mut scene = file.scene.clone();
         scene.name.clear();

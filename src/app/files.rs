@@ -5,12 +5,13 @@ use super::chooser::{Outcome, Purpose, Request};
 use super::dialogs::Dialog;
 use super::document::Document;
 use super::edit::Edit;
-use super::editor::Editor;
+use super::editor::{Editor, same_picture};
 use super::new_items;
 use super::view::View;
 use crate::scene::{SceneError, SceneFile};
 use egui::Context;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 impl Editor {
     /// Open, Save, Save as, Export.
@@ -103,7 +104,12 @@ impl Editor {
         match file.save(&path) {
             Ok(()) => {
                 self.toasts.success(format!("Saved {}", path.display()));
+                let shown = self.rendered.as_ref().is_some_and(|shown| same_picture(shown, self.document.file()));
                 self.document.saved_as(path, file);
+                if shown {
+                    // From another place, with its paths written another way: the same picture, which goes on.
+                    self.rendered = Some(Arc::clone(self.document.file()));
+                }
                 if let Some(next) = self.after_save.take() {
                     self.go(ctx, next);
                 }

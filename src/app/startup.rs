@@ -30,7 +30,8 @@ pub enum AppError {
     },
     /// There is a display, but no window on it.
     #[error(
-        "no window can be opened: {reason}\nOn Debian this installs what it takes: apt install {PACKAGES}\n{render}"
+        "no window can be opened: {reason}\nDISPLAY or WAYLAND_DISPLAY has to name a display that answers; \
+         on Debian this installs the libraries that it takes: apt install {PACKAGES}\n{render}"
     )]
     NoWindow {
         /// What the window system says.

@@ -35,8 +35,8 @@ pub(super) struct RenderSettings {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<(u32, u32)>,
     /// Threads that render [default: one for each core]
-    #[arg(long, value_name = "N")]
-    pub(super) threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
     /// Another number gives another noise
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) seed: u64,
@@ -90,8 +90,8 @@ pub(super) struct BenchArguments {
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) seeds: u64,
     /// Threads that render [default: one for each core]
-    #[arg(long, value_name = "N")]
-    pub(super) threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
     /// Write the table to this file
     #[arg(long, value_name = "OUT.csv")]
     pub(super) csv: Option<PathBuf>,

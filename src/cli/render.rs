@@ -15,7 +15,6 @@ use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::{
     io::{Write, stderr},
-    num::NonZeroUsize,
     path::Path,
 };
 
@@ -120,8 +119,8 @@ fn sized(mut file: SceneFile, settings: &RenderSettings) -> SceneFile {
 }
 
 /// The threads that render: this many, or one for each core.
-pub(super) fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, CliError> {
-    let count = threads.map_or(0, NonZeroUsize::get);
+pub(super) fn pool(threads: Option<u16>) -> Result<ThreadPool, CliError> {
+    let count = threads.map_or(0, usize::from);
     let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|k| format!("render {k}")).build();
     pool.map_err(|e| CliError::from(SessionError::from(e)))
 }

@@ -23,18 +23,22 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     let mut counters = Counters::default();
     let mut seconds = PassSeconds::default();
 
-    let (caustic, (global, global_counters)) = timed(&mut seconds.photons, || {
+    let (caustic, global) = timed(&mut seconds.photons, || {
         let caustic = caustic_photon_pass(world, plan, seed, i, cancel)?;
         Some((caustic, global_photon_pass(world, plan, seed, i, cancel)?))
     })?;
     counters += caustic.counters;
-    counters += global_counters;
+    counters += global.counters;
 
     let maps = timed(&mut seconds.map, || {
-        let (caustic, global) = rayon::join(|| PhotonMap::build(&caustic.photons), || PhotonMap::build(&global));
-        Maps { caustic, global }
+        let (global, (caustic, focused)) = rayon::join(
+            || PhotonMap::build(&global.photons),
+            || (PhotonMap::build(&caustic.photons), PhotonMap::build(&global.focused)),
+        );
+        Maps { caustic, global, focused }
     });
-    counters.map_builds += u64::from(!maps.caustic.is_empty()) + u64::from(!maps.global.is_empty());
+    let built = [&maps.caustic, &maps.global, &maps.focused].into_iter().filter(|map| !map.is_empty()).count();
+    counters.map_builds += built as u64;
 
     let mut radiance = Vec::with_capacity(plan.camera.pixel_count());
     for rows in bands(plan) {

@@ -25,8 +25,10 @@ const MAX_PART_OF_SPHERE: f64 = 0.3;
 pub struct Maps {
     /// Photons that only mirrors and glass have touched.
     pub caustic: PhotonMap,
-    /// Photons that were scattered in many directions before.
+    /// Photons that came from surfaces that scatter in many directions.
     pub global: PhotonMap,
+    /// Photons that mirrors or glass sent on after they were scattered.
+    pub focused: PhotonMap,
 }
 
 /// Radiance that each visible point adds to its pixel, in their order; `None` when cancelled.
@@ -74,6 +76,10 @@ impl Gatherer<'_> {
         if !self.maps.global.is_empty() && point.scattering.albedo != Rgb::ZERO {
             counters.global_gathers += 1;
             radiance += self.estimate(&self.maps.global, point, self.plan.global_radius, false);
+        }
+        if !self.maps.focused.is_empty() && point.scattering.albedo != Rgb::ZERO {
+            counters.global_gathers += 1;
+            radiance += self.estimate(&self.maps.focused, point, self.plan.focused_radius, false);
         }
         if radiance.is_finite() {
             radiance

@@ -39,7 +39,7 @@ pub use gather::{Maps, gather};
 pub use guide::Guide;
 pub use photon::{PackedDirection, Photon};
 pub use photon_map::{PhotonMap, Query};
-pub use photon_pass::global_photon_pass;
+pub use photon_pass::{GlobalBatch, global_photon_pass};
 pub use plan::{CausticPlan, Plan, PlanNote};
 
 /// Rows of the film, from the top.

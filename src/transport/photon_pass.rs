@@ -17,6 +17,17 @@ use rayon::prelude::*;
 /// make single photons too bright.
 pub(super) const MAX_SHADING_FACTOR: f64 = 8.0;
 
+/// What one iteration's paths for interreflection leave.
+#[derive(Clone, Debug, Default)]
+pub struct GlobalBatch {
+    /// Photons that came straight from a surface that scatters: their density is smooth.
+    pub photons: Vec<Photon>,
+    /// Photons that mirrors or glass sent on after they were scattered: these form caustics of indirect light.
+    pub focused: Vec<Photon>,
+    /// What was done.
+    pub counters: Counters,
+}
+
 /// The photons of one iteration, in the order of their paths; `None` when cancelled.
 pub fn global_photon_pass(
     world: &World,
@@ -24,28 +35,33 @@ pub fn global_photon_pass(
     seed: u64,
     iteration: u64,
     cancel: Cancel,
-) -> Option<(Vec<Photon>, Counters)> {
+) -> Option<GlobalBatch> {
     let paths = |&count: &u64| plan.paths(count, iteration);
-    let blocks: Vec<(Vec<Photon>, Counters)> = blocks::of_photons(plan.global_paths.iter().map(paths))
+    let blocks: Vec<GlobalBatch> = blocks::of_photons(plan.global_paths.iter().map(paths))
         .into_par_iter()
         .map(|block| {
-            let mut walk = Walk { world, photons: Vec::new(), counters: Counters::default() };
+            let mut walk = Walk { world, batch: GlobalBatch::default() };
             let paths = paths(&plan.global_paths[block.light]);
             let count = paths.end - paths.start;
             for index in block.paths.clone() {
                 let sampler = Sampler::new(seed, plan.stream(Stream::GlobalPhoton), block.light as u64, index);
                 walk.trace_path(block.light, count, sampler);
             }
-            (!cancel.is_cancelled()).then_some((walk.photons, walk.counters))
+            (!cancel.is_cancelled()).then_some(walk.batch)
         })
         .collect::<Option<_>>()?;
-    Some(blocks::concatenate(blocks))
+    let mut all = GlobalBatch::default();
+    for block in blocks {
+        all.photons.extend_from_slice(&block.photons);
+        all.focused.extend_from_slice(&block.focused);
+        all.counters += block.counters;
+    }
+    Some(all)
 }
 
 struct Walk<'a> {
     world: &'a World,
-    photons: Vec<Photon>,
-    counters: Counters,
+    batch: GlobalBatch,
 }
 
 /// A photon in flight.
@@ -57,36 +73,45 @@ struct Flight {
     bounces: u32,
     /// Whether one of them sent light in many directions.
     was_scattered: bool,
+    /// Whether the last of them mirrored or refracted it.
+    is_focused: bool,
 }
 
 impl Walk<'_> {
     fn trace_path(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
         let Emission { origin, direction, flux } = emission::emit(&self.world.lights[light], &mut sampler);
-        self.counters.global_paths += 1;
+        self.batch.counters.global_paths += 1;
         let ray = Ray { t_min: 1e-9 * self.world.radius, ..Ray::new(origin, direction) };
-        let mut flight =
-            Flight { ray, flux: flux / path_count as f32, media: Media::default(), bounces: 0, was_scattered: false };
+        let mut flight = Flight {
+            ray,
+            flux: flux / path_count as f32,
+            media: Media::default(),
+            bounces: 0,
+            was_scattered: false,
+            is_focused: false,
+        };
         while self.step(&mut flight, &mut sampler).is_some() {}
     }
 
     /// To the next surface and off it; `None` where the path ends.
     fn step(&mut self, flight: &mut Flight, sampler: &mut Sampler) -> Option<()> {
-        self.counters.rays += 1;
+        self.batch.counters.rays += 1;
         let hit = self.world.aggregate.closest_hit(&flight.ray)?;
         let Surface::Object { object, material, .. } = self.world.surfaces[hit.primitive as usize] else { return None };
         let point = self.world.surface_point(&flight.ray, hit);
         flight.flux *= flight.media.transmittance(self.world, hit.t);
         let (scattering, n_shade) = self.world.scattering(&point, material);
-        self.counters.texture_lookups += u64::from(self.world.materials[material as usize].lookups());
+        self.batch.counters.texture_lookups += u64::from(self.world.materials[material as usize].lookups());
         let wi = -flight.ray.direction;
         if flight.was_scattered && scattering.albedo != Rgb::ZERO && flight.bounces < self.world.max_bounces {
-            self.photons.push(Photon {
+            let photons = if flight.is_focused { &mut self.batch.focused } else { &mut self.batch.photons };
+            photons.push(Photon {
                 position: (point.position - self.world.center).as_vec3(),
                 flux: flight.flux,
                 wi: PackedDirection::pack(wi.as_vec3()),
                 tag: tag(object, point.front, flight.bounces),
             });
-            self.counters.photons_stored += 1;
+            self.batch.counters.photons_stored += 1;
         }
         if flight.bounces + 1 >= self.world.max_bounces {
             return None;
@@ -113,6 +138,7 @@ fn scatter(
     let wi = -flight.ray.direction;
     let (u, choice): (DVec2, f64) = (sampler.next_2d(), sampler.next_1d());
     let before = flight.flux.max_element();
+    flight.is_focused = false;
     let kept = |weight: Rgb| f64::from((flight.flux * weight).max_element() / before);
     let diffuse = kept(scattering.albedo);
     if choice < diffuse {
@@ -138,10 +164,12 @@ fn scatter(
         }
         Lobe::Mirror { reflectance } => {
             let probability = kept(reflectance);
+            flight.is_focused = true;
             flight.flux *= reflectance / probability as f32;
             (choice - diffuse < probability).then(|| bsdf::reflect_above(wi, n_shade, n_side))
         }
         Lobe::Glass { tint, .. } => {
+            flight.is_focused = true;
             let entering = point.front;
             let eta = flight.media.eta(world, material, entering);
             let fresnel = bsdf::fresnel(wi.dot(n_shade), eta);

@@ -32,6 +32,8 @@ pub struct Plan {
     pub caustic_radius: f64,
     /// The same for interreflection.
     pub global_radius: f64,
+    /// The same for interreflection that mirrors or glass focused.
+    pub focused_radius: f64,
     /// The largest radius, parts of the world's radius.
     pub largest_radius: f64,
     /// Every decision.
@@ -80,6 +82,7 @@ impl Plan {
             global_paths,
             caustic_radius: 2.0,
             global_radius: 12.0,
+            focused_radius: 3.0,
             largest_radius: 0.05,
             notes: notes.0,
             is_draft: false,
