@@ -82,7 +82,7 @@ impl Plan {
             global_paths,
             caustic_radius: 2.0,
             global_radius: 12.0,
-            focused_radius: 3.0,
+            focused_radius: 6.0,
             largest_radius: 0.05,
             notes: notes.0,
             is_draft: false,
