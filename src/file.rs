@@ -1,7 +1,7 @@
 //! Files are written whole or not at all.
 
 use std::{
-    fs::{self, Permissions},
+    fs::{self, File},
     io::{self, Write},
     path::{Path, PathBuf},
 };
@@ -16,9 +16,9 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
         return fs::write(&target, bytes);
     }
-    let mut temporary =
-        Builder::new().prefix(".patchlight-").permissions(new_file_permissions()).tempfile_in(folder(&target))?;
-    temporary.write_all(bytes)?;
+    // Made by hand: the crate's own way puts the temporary name, which means nothing to people, into errors.
+    let temporary = Builder::new().prefix(".patchlight-").make_in(folder(&target), |path| File::create_new(path))?;
+    temporary.as_file().write_all(bytes)?;
     if let Some(before) = before.filter(fs::Metadata::is_file) {
         temporary.as_file().set_permissions(before.permissions())?;
     }
@@ -30,13 +30,6 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// The folder that holds `path`.
 pub fn folder(path: &Path) -> PathBuf {
     path.parent().filter(|p| !p.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_owned)
-}
-
-/// What a program asks for when it creates a file; the system takes the user's mask off.
-#[cfg(unix)]
-fn new_file_permissions() -> Permissions {
-    use std::os::unix::fs::PermissionsExt;
-    Permissions::from_mode(0o666)
 }
 
 #[cfg(test)]
@@ -55,6 +48,15 @@ mod tests {
         write_whole(&folder_in_the_way, b"three").unwrap_err();
         write_whole(&dir.path().join("no such folder/b.txt"), b"four").unwrap_err();
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 2, "nothing is left behind");
+    }
+
+    #[test]
+    fn errors_do_not_name_the_temporary_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let error = write_whole(&dir.path().join("no such folder/b.txt"), b"four").unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::NotFound);
+        assert!(!error.to_string().contains(".patchlight"), "{error}");
+        assert!(error.to_string().contains("No such file"), "{error}");
     }
 
     #[cfg(unix)]

@@ -1,4 +1,4 @@
-use super::{CliError, args::CheckArguments, render::pool};
+use super::{CliError, args::CheckArguments, render::pool, words::counted};
 use crate::{
     engine::{PlanSummary, Session},
     scene::{Scene, SceneFile, Shape},
@@ -31,7 +31,5 @@ fn contents(scene: &Scene) -> String {
         (scene.materials.len(), "material"),
         (scene.textures.len(), "texture"),
     ];
-    let plural = |word: &str| if word.ends_with("ch") { format!("{word}es") } else { format!("{word}s") };
-    let named = counts.map(|(n, word)| if n == 1 { format!("1 {word}") } else { format!("{n} {}", plural(word)) });
-    named.join(", ")
+    counts.map(|(n, word)| counted(n as u64, word)).join(", ")
 }

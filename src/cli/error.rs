@@ -35,7 +35,9 @@ impl CliError {
         match self {
             Self::Scene(SceneError::Write { .. }) | Self::Image(ImageError::Write { .. }) => 1,
             Self::Usage(_) | Self::Scene(_) | Self::Image(_) | Self::Session(SessionError::Prepare(_)) => 2,
-            Self::Session(SessionError::Threads(_)) | Self::Failed(_) | Self::Output(_) => 1,
+            Self::Session(SessionError::Threads(_) | SessionError::Memory { .. })
+            | Self::Failed(_)
+            | Self::Output(_) => 1,
         }
     }
 }

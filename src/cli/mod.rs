@@ -9,6 +9,7 @@ mod intersect;
 mod progress;
 mod render;
 mod statistics;
+mod words;
 
 pub use args::Arguments;
 pub use error::CliError;

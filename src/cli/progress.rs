@@ -1,4 +1,4 @@
-use super::args::Budget;
+use super::{args::Budget, words::counted};
 use crate::engine::Stats;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -25,7 +25,7 @@ impl Progress {
         let part = part_done(&self.budget, stats).clamp(0.0, 1.0);
         self.bar.set_position((STEPS as f64 * part) as u64);
         let error = stats.error_estimate.map_or(String::new(), |e| format!(", error about {:.1} %", 100.0 * e));
-        self.bar.set_message(format!("{} iterations, {:.0} s{error}", stats.iterations, stats.seconds));
+        self.bar.set_message(format!("{}, {:.0} s{error}", counted(stats.iterations, "iteration"), stats.seconds));
     }
 }
 

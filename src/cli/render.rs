@@ -3,6 +3,7 @@ use super::{
     args::{Budget, RenderArguments, RenderSettings},
     progress::Progress,
     statistics::Statistics,
+    words::counted,
 };
 use crate::{
     engine::{Frame, Session, SessionError},
@@ -128,9 +129,10 @@ pub(super) fn pool(threads: Option<u16>) -> Result<ThreadPool, CliError> {
 fn report(frame: &Frame, output: &Path) -> Result<(), CliError> {
     let stats = &frame.stats;
     let mut err = stderr().lock();
-    writeln!(err, "{}: {} iterations in {:.1} s", output.display(), stats.iterations, stats.seconds)?;
+    let iterations = counted(stats.iterations, "iteration");
+    writeln!(err, "{}: {iterations} in {:.1} s", output.display(), stats.seconds)?;
     if stats.dropped_samples > 0 {
-        writeln!(err, "left out {} samples that were not finite", stats.dropped_samples)?;
+        writeln!(err, "left out {} that were not finite", counted(stats.dropped_samples, "sample"))?;
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use super::iteration::render_iteration;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
 use crate::transport::{Cancel, Counters, Plan};
-use crate::world::{PrepareError, World, prepare};
+use crate::world::{Camera, PrepareError, World, prepare};
 use std::sync::Arc;
 use std::time::Instant;
 use thiserror::Error;
@@ -18,6 +18,28 @@ pub enum SessionError {
     /// The operating system gave no threads.
     #[error("no threads to render with: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
+    /// There is not enough memory for the film.
+    #[error("a picture of {width} x {height} pixels takes about {} MB of memory, more than there is", needed >> 20)]
+    Memory {
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Bytes.
+        needed: u64,
+    },
+}
+
+/// Bytes for each pixel at the busiest moment: the sums, an iteration, a frame and what is written to a file.
+const BYTES_PER_PIXEL: u64 = 96;
+
+/// Whether there is memory for the film; asked before, because a program that gets none in between is ended.
+fn check_memory(camera: &Camera) -> Result<(), SessionError> {
+    let needed = camera.pixel_count() as u64 * BYTES_PER_PIXEL;
+    let mut probe = Vec::<u8>::new();
+    let there = usize::try_from(needed).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
+    let (width, height) = (camera.width, camera.height);
+    there.then_some(()).ok_or(SessionError::Memory { width, height, needed })
 }
 
 /// The rendering of one scene, on the caller's thread and a pool's.
@@ -38,6 +60,7 @@ impl Session {
     pub fn prepare(file: &SceneFile, seed: u64, previous: Option<&Self>) -> Result<Self, SessionError> {
         let start = Instant::now();
         let world = prepare(&file.scene, &file.location, previous.map(|session| &session.world))?;
+        check_memory(&world.camera)?;
         let plan = Plan::new(&world);
         let summary = Arc::new(PlanSummary { notes: plan.notes.clone() });
         let film = FilmSums::new(plan.camera.width, plan.camera.height);

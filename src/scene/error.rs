@@ -21,10 +21,12 @@ pub enum SceneError {
         problems: Vec<LocatedProblem>,
     },
     /// No built-in scene has this name, and no file.
-    #[error("{name}: there is no such scene, neither a file nor built in{suggestion}")]
+    #[error("{name}: there is no such scene file, and built in are {known}{suggestion}")]
     NoSuchExample {
         /// What was asked for.
         name: String,
+        /// The names that there are.
+        known: String,
         /// Empty, or the nearest name.
         suggestion: String,
     },

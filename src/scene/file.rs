@@ -28,12 +28,11 @@ impl SceneFile {
 
     /// The scene that people name: a file, or the built-in scene of this name where there is no such file.
     pub fn find(name: &Path) -> Result<Self, SceneError> {
-        let word = name.to_str().filter(|_| !name.exists()).unwrap_or_default();
-        let mut names = built_in_scenes().iter().map(|scene| scene.name);
-        if names.clone().any(|known| known == word) || !suggestion(word, &mut names).is_empty() {
-            return Self::built_in(word);
+        let names_a_file = name.exists() || name.extension().is_some() || name.components().count() > 1;
+        match name.to_str().filter(|word| !names_a_file && !word.is_empty()) {
+            Some(word) => Self::built_in(word),
+            None => Self::open(name),
         }
-        Self::open(name)
     }
 
     /// The built-in scene of this name.
@@ -42,7 +41,12 @@ impl SceneFile {
         let found = names.clone().find(|known| *known == name);
         let bytes = found.and_then(|known| embedded(&format!("scenes/{known}.toml")));
         let Some(bytes) = bytes else {
-            return Err(SceneError::NoSuchExample { name: name.to_owned(), suggestion: suggestion(name, names) });
+            let known = names.clone().collect::<Vec<_>>().join(", ");
+            return Err(SceneError::NoSuchExample {
+                name: name.to_owned(),
+                known,
+                suggestion: suggestion(name, names),
+            });
         };
         let location = Location::BuiltIn(name.to_owned());
         let text = String::from_utf8(bytes.to_vec()).map_err(|e| no_text(&e, &location))?;

@@ -7,6 +7,7 @@ mod tables;
 
 use super::{LocatedProblem, Location, Problem, Scene, Shape, problem::is_within, validate};
 use notes::Notes;
+use rayon::prelude::*;
 use std::sync::Arc;
 pub(super) use tables::VERSION;
 use toml::de::DeTable;
@@ -20,14 +21,24 @@ pub(super) fn parse(text: &str, location: &Location) -> Result<Scene, Vec<Locate
     let mut notes = Notes::default();
     let mut scene = tables::scene(root.get_ref(), &mut notes);
     load_patches(&mut scene, location, &mut notes);
-    find_textures(&scene, location, &mut notes);
+    check_textures(&scene, location, &mut notes);
     add_invalid(&scene, &mut notes);
     notes.finish(text).map(|()| scene)
 }
 
 fn syntax_problem(text: &str, error: &toml::de::Error) -> LocatedProblem {
-    let problem = Problem { path: String::new(), message: error.message().trim().replace('\n', "; ") };
-    LocatedProblem::at(text, error.span().map_or(0, |span| span.start), problem)
+    let span = error.span().unwrap_or(0..0);
+    let found = text.get(span.clone()).unwrap_or_default();
+    let rest_of_line = text.get(span.start..).unwrap_or_default().lines().next().unwrap_or_default().trim();
+    let message = match error.message().trim() {
+        "duplicate key" => format!("the key `{found}` stands here for the second time"),
+        // The reader takes what is not there for a string without quotes.
+        said if said.starts_with("string values must be quoted") && rest_of_line.is_empty() => {
+            "expected a value after `=`, found none".to_owned()
+        }
+        said => said.replace('\n', "; "),
+    };
+    LocatedProblem::at(text, span.start, Problem { path: String::new(), message })
 }
 
 /// Adds what [`validate`] finds, without what only follows from a value that could not be read.
@@ -36,7 +47,11 @@ fn add_invalid(scene: &Scene, notes: &mut Notes) {
         return;
     }
     for Problem { path, message } in validate(scene) {
-        if !notes.problem_paths().any(|reported| is_within(&path, reported) || is_within(reported, &path)) {
+        let read_from = path.strip_suffix(".patches").map(|object| format!("{object}.file"));
+        let follows = |reported: &str| {
+            is_within(&path, reported) || is_within(reported, &path) || read_from.as_deref() == Some(reported)
+        };
+        if !notes.problem_paths().any(follows) {
             notes.add(&path, message);
         }
     }
@@ -53,13 +68,11 @@ fn load_patches(scene: &mut Scene, location: &Location, notes: &mut Notes) {
     }
 }
 
-fn find_textures(scene: &Scene, location: &Location, notes: &mut Notes) {
-    for (index, texture) in scene.textures.iter().enumerate() {
-        if !texture.file.is_empty()
-            && let Err(error) = location.read(&texture.file)
-        {
-            notes.add(&format!("texture[{index}].file"), format!("\"{}\" cannot be read: {error}", texture.file));
-        }
+fn check_textures(scene: &Scene, location: &Location, notes: &mut Notes) {
+    let problem = |file: &str| if file.is_empty() { None } else { location.read_picture(file).err() };
+    let problems: Vec<_> = scene.textures.par_iter().map(|texture| problem(&texture.file)).collect();
+    for (index, problem) in problems.into_iter().enumerate() {
+        problem.into_iter().for_each(|message| notes.add(&format!("texture[{index}].file"), message));
     }
 }
 

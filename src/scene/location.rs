@@ -3,11 +3,16 @@ use crate::{
     file::folder,
     geometry::bezier::{ControlNet, read_bpt},
 };
+use image::{DynamicImage, ImageError, ImageReader};
 use std::{
     borrow::Cow,
-    fs, io,
+    fs,
+    io::{self, Cursor},
     path::{Path, PathBuf},
 };
+
+/// Texels that a picture may have: 8192 x 8192, which take 800 MB as a texture.
+const MAX_TEXELS: u64 = 1 << 26;
 
 /// Where a scene is from: the place that the paths in it are relative to.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -37,6 +42,18 @@ impl Location {
         let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
         let text = str::from_utf8(&bytes).map_err(|e| format!("\"{relative}\" is no text: {e}"))?;
         read_bpt(text).map_err(|e| format!("\"{relative}\": {e}"))
+    }
+
+    /// The decoded PNG or JPEG file that the scene names, or a message that says why there is none.
+    pub fn read_picture(&self, relative: &str) -> Result<DynamicImage, String> {
+        let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
+        let reader = || ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
+        let damaged = |e: ImageError| format!("\"{relative}\" is no PNG or JPEG picture that can be read: {e}");
+        let (width, height) = reader().map_err(|e| damaged(e.into()))?.into_dimensions().map_err(damaged)?;
+        if u64::from(width) * u64::from(height) > MAX_TEXELS {
+            return Err(format!("\"{relative}\" has {width} x {height} pixels, expected at most 8192 x 8192"));
+        }
+        reader().map_err(|e| damaged(e.into()))?.decode().map_err(damaged)
     }
 
     /// The file's path, unless the program carries the file with it.

@@ -3,7 +3,7 @@
 use super::guide::Guide;
 use super::schedule::{self, SMALLEST};
 use crate::geometry::Primitive;
-use crate::math::Stream;
+use crate::math::{Rgb, Stream};
 use crate::world::{Camera, Light, Lobe, Surface, World};
 use std::ops::Range;
 use std::sync::Arc;
@@ -74,8 +74,12 @@ impl Plan {
         let mut notes = Notes::default();
         let lit = notes.lights(world);
         let caustics = if lit { plan_caustics(world, &mut notes) } else { None };
+        if lit && caustics.is_none() {
+            notes.skip(SEEN_INDIRECTLY, "there are no caustics to be seen");
+        }
         let global_paths = if lit { plan_interreflection(world, &mut notes) } else { Vec::new() };
         notes.textures(world);
+        notes.background(world);
         Self {
             camera: world.camera,
             caustics,
@@ -152,16 +156,22 @@ impl Plan {
     }
 }
 
+const SEEN_INDIRECTLY: &str = "caustics in mirrors and glass";
+
 fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
     const WHAT: &str = "caustics";
-    if world.max_bounces < 2 {
-        return notes.skip(WHAT, "max_bounces leaves only direct light");
-    }
-    if !(0..world.surfaces.len()).any(|p| world.is_specular(p as u32)) {
-        return notes.skip(WHAT, "no surface mirrors or refracts");
-    }
-    if !shows(world, |world, p| !world.is_specular(p) || world.scattered_bound(p) > 0.0) {
-        return notes.skip(WHAT, "no surface scatters the light that mirrors and glass send");
+    let needless = if world.max_bounces < 2 {
+        Some("max_bounces leaves only direct light")
+    } else if !(0..world.surfaces.len()).any(|p| world.is_specular(p as u32)) {
+        Some("no surface mirrors or refracts")
+    } else if !shows(world, |world, p| !world.is_specular(p) || world.scattered_bound(p) > 0.0) {
+        Some("no surface scatters the light that mirrors and glass send")
+    } else {
+        None
+    };
+    if let Some(reason) = needless {
+        notes.skip(WHAT, reason);
+        return None;
     }
     let guides: Vec<Guide> =
         world.lights.iter().enumerate().map(|(i, light)| Guide::build(world, light, i as u64)).collect();
@@ -180,34 +190,35 @@ fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
 }
 
 fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
-    const WHAT: &str = "caustics in mirrors and glass";
     let seen = shows(world, |world, p| (world.is_specular(p) || world.is_glossy(p)) && world.may_be_seen(p));
     if seen {
-        notes.render(WHAT, "a mirror, glass or glossy surface may be in view".to_owned());
+        notes.render(SEEN_INDIRECTLY, "a mirror, glass or glossy surface may be in view".to_owned());
     } else {
-        notes.skip::<()>(WHAT, "nothing in view mirrors or refracts: photons go straight to the film");
+        notes.skip(SEEN_INDIRECTLY, "nothing in view mirrors or refracts: photons go straight to the film");
     }
     seen
 }
 
 fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
     const WHAT: &str = "interreflection";
-    if world.max_bounces < 2 {
-        notes.skip::<()>(WHAT, "max_bounces leaves only direct light");
-        return Vec::new();
-    }
     let scattering = (0..world.surfaces.len()).filter(|&p| world.scattered_bound(p as u32) > 0.0).count();
-    if scattering == 0 {
-        notes.skip::<()>(WHAT, "no surface scatters light in many directions");
+    let is_curved = |primitive: &Primitive| matches!(primitive, Primitive::Sphere(_) | Primitive::Patch(_));
+    let needless = if world.max_bounces < 2 {
+        Some("max_bounces leaves only direct light")
+    } else if scattering == 0 {
+        Some("no surface scatters light in many directions")
+    } else if world.surfaces.len() == 1 && !world.aggregate.primitives().iter().any(is_curved) {
+        Some("a single flat surface cannot light itself")
+    } else {
+        None
+    };
+    if let Some(reason) = needless {
+        notes.skip(WHAT, reason);
         return Vec::new();
     }
-    if world.surfaces.len() == 1
-        && !matches!(world.aggregate.primitives()[0], Primitive::Sphere(_) | Primitive::Patch(_))
-    {
-        notes.skip::<()>(WHAT, "a single flat surface cannot light itself");
-        return Vec::new();
-    }
-    notes.render(WHAT, format!("{scattering} surfaces scatter light to each other"));
+    let surfaces =
+        if scattering == 1 { "1 surface scatters".to_owned() } else { format!("{scattering} surfaces scatter") };
+    notes.render(WHAT, format!("{surfaces} light to each other"));
     let total = (world.camera.pixel_count() as f64 * GLOBAL_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
     share(world.lights.iter().map(power).collect(), total)
 }
@@ -261,30 +272,40 @@ impl Notes {
         self.0.push(PlanNote { what: what.to_owned(), rendered: true, reason });
     }
 
-    fn skip<T>(&mut self, what: &str, reason: &str) -> Option<T> {
+    fn skip(&mut self, what: &str, reason: &str) {
         self.0.push(PlanNote { what: what.to_owned(), rendered: false, reason: reason.to_owned() });
-        None
     }
 
     /// Whether there is light to transport.
     fn lights(&mut self, world: &World) -> bool {
+        const WHAT: &str = "direct light and photons";
         if world.lights.is_empty() {
-            self.skip::<()>("direct light and photons", "no light has any power");
+            self.skip(WHAT, "no light has any power");
         } else if world.max_bounces == 0 {
-            self.skip::<()>("direct light and photons", "max_bounces is 0: only lights are seen");
+            self.skip(WHAT, "max_bounces is 0: only lights are seen");
+        } else if !shows(world, |_, _| true) {
+            self.skip(WHAT, "there is no surface to light");
         } else {
-            self.render("direct light", format!("{} light(s), one shadow ray each", world.lights.len()));
+            let one = "1 light, one shadow ray for each point".to_owned();
+            let lights = world.lights.len();
+            let reason = if lights == 1 { one } else { format!("{lights} lights, one shadow ray each") };
+            self.render("direct light", reason);
             return true;
         }
         false
     }
 
     fn textures(&mut self, world: &World) {
-        let textured = world.materials.iter().filter(|m| m.needs_parameters()).count();
-        if textured > 0 {
-            self.render("textures", format!("{textured} material(s) read them"));
-        } else {
-            self.skip::<()>("textures", "no visible material has one: surface parameters are never computed");
+        match world.materials.iter().filter(|m| m.needs_parameters()).count() {
+            0 => self.skip("textures", "no visible material has one: surface parameters are never computed"),
+            1 => self.render("textures", "1 material reads them".to_owned()),
+            textured => self.render("textures", format!("{textured} materials read them")),
+        }
+    }
+
+    fn background(&mut self, world: &World) {
+        if world.background != Rgb::ZERO {
+            self.render("background", "rays that leave the scene see it; it lights nothing".to_owned());
         }
     }
 }

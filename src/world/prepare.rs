@@ -14,13 +14,8 @@ use thiserror::Error;
 #[derive(Debug, Error, PartialEq)]
 pub enum PrepareError {
     /// A texture's file is missing or damaged.
-    #[error("texture file `{file}`: {reason}")]
-    Texture {
-        /// As the scene names it.
-        file: String,
-        /// What happened.
-        reason: String,
-    },
+    #[error("texture {0}")]
+    Texture(String),
     /// A name that nothing has.
     #[error("{user} refers to {kind} `{name}`, which does not exist")]
     UnknownName {

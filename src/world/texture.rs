@@ -23,9 +23,7 @@ pub(super) struct TextureKey {
 impl TextureKey {
     /// Reads and decodes the file.
     pub(super) fn decode(&self) -> Result<Image, PrepareError> {
-        let unreadable = |reason: String| PrepareError::Texture { file: self.file.clone(), reason };
-        let bytes = self.location.read(&self.file).map_err(|error| unreadable(error.to_string()))?;
-        let picture = image::load_from_memory(&bytes).map_err(|error| unreadable(error.to_string()))?.into_rgb32f();
+        let picture = self.location.read_picture(&self.file).map_err(PrepareError::Texture)?.into_rgb32f();
         let (width, height) = (picture.width() as usize, picture.height() as usize);
         let decode = |c: f32| if self.linear { c } else { linear_from_srgb(c) };
         let texels = picture.pixels().map(|p| Rgb::from_array(p.0.map(decode))).collect();

@@ -198,8 +198,10 @@ fn command_line_mistakes_end_with_2() {
         (&["render", "nothing.toml", "-o", "a.png"], "nothing.toml: cannot be read"),
         (
             &["render", "tepot", "-o", "a.png"],
-            "tepot: there is no such scene, neither a file nor built in; did you mean \"teapot\"?",
+            "tepot: there is no such scene file, and built in are report, report-flipped, water, cardioid, lens, teapot, \
+             cornell; did you mean \"teapot\"?",
         ),
+        (&["render", "bogus", "-o", "a.png"], "bogus: there is no such scene file, and built in are report"),
         (&["bench", "ball.toml", "--reference", "nothing.exr"], "nothing.exr: cannot be read"),
     ];
     for (arguments, message) in mistakes {

@@ -39,11 +39,12 @@ pub(super) fn line(row: &Measurement) -> String {
 /// How fast the errors fall, and where the time went.
 pub(super) fn summary(rows: &[Measurement]) -> String {
     let slope = |error: fn(&Measurement) -> f64| log_slope(rows.iter().map(|row| (row.stats.seconds, error(row))));
-    let mut text = format!(
-        "RMSE falls like t^{:.2}, relMSE like t^{:.2}\n",
-        slope(|row| row.errors.rmse),
-        slope(|row| row.errors.rel_mse)
-    );
+    let (rmse, rel_mse) = (slope(|row| row.errors.rmse), slope(|row| row.errors.rel_mse));
+    let mut text = if rmse.is_finite() && rel_mse.is_finite() {
+        format!("RMSE falls like t^{rmse:.2}, relMSE like t^{rel_mse:.2}\n")
+    } else {
+        String::new()
+    };
     if let Some(last) = rows.last() {
         let passes = &last.stats.passes;
         let total = last.stats.seconds / 100.0;

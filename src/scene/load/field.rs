@@ -71,11 +71,14 @@ impl Field for f32 {
 }
 
 impl Field for u32 {
-    const EXPECTED: &'static str = "a whole number from 0 to 4294967295";
+    const EXPECTED: &'static str = "a whole number";
 
     fn read(value: &DeValue<'_>, path: &str, notes: &mut Notes) -> Option<Self> {
         let DeValue::Integer(n) = value else { return mismatch(value, path, Self::EXPECTED, notes) };
-        Self::from_str_radix(n.as_str(), n.radix()).ok().or_else(|| mismatch(value, path, Self::EXPECTED, notes))
+        Self::from_str_radix(n.as_str(), n.radix()).ok().or_else(|| {
+            let expected = if n.as_str().starts_with('-') { "1 or more" } else { "a smaller number" };
+            mismatch(value, path, expected, notes)
+        })
     }
 }
 

@@ -147,7 +147,7 @@ prop_compose! {
     ) -> Scene {
         let position = DVec3::from_array(position);
         let numbered = |k: usize, name: String| format!("{name}{k}");
-        let texture = Texture { name: "texture 0".to_owned(), file: "../Cargo.toml".to_owned(), encoding };
+        let texture = Texture { name: "texture 0".to_owned(), file: "../assets/textures/face.png".to_owned(), encoding };
         let materials: Vec<_> = materials.into_iter().enumerate().map(|(k, (name, model, relief))| Material { name: numbered(k, name), model, relief }).collect();
         let material = materials[0].name.clone();
         Scene {

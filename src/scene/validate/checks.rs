@@ -56,7 +56,7 @@ impl<'a> Checks<'a> {
     /// Coordinates that can be computed with.
     pub(super) fn point(&mut self, key: &str, p: DVec3) {
         self.require(is_point(p), key, || {
-            format!("found {p}, expected numbers from {:?} to {MAX_LENGTH:?}", -MAX_LENGTH)
+            format!("found {:?}, expected numbers from {:?} to {MAX_LENGTH:?}", p.to_array(), -MAX_LENGTH)
         });
     }
 
@@ -64,14 +64,14 @@ impl<'a> Checks<'a> {
     pub(super) fn direction(&mut self, key: &str, d: DVec3) {
         self.point(key, d);
         self.require(!is_point(d) || d.length() >= MIN_LENGTH, key, || {
-            format!("found {d}, expected a direction, of length {MIN_LENGTH:?} at least")
+            format!("found {:?}, expected a direction, of length {MIN_LENGTH:?} at least", d.to_array())
         });
     }
 
     /// A strength of light for each channel.
     pub(super) fn radiance(&mut self, key: &str, c: Rgb) {
         let fits = c.to_array().into_iter().all(|x| (0.0..=MAX_RADIANCE).contains(&x));
-        self.require(fits, key, || format!("found {c}, expected 0 to {MAX_RADIANCE:?} in each channel"));
+        self.require(fits, key, || format!("found {:?}, expected 0 to {MAX_RADIANCE:?} in each channel", c.to_array()));
     }
 
     /// The name of something that there is.
