@@ -10,6 +10,7 @@ pub(crate) enum Action {
     Save,
     SaveAs,
     Export,
+    ExportSurface,
     Quit,
     Undo,
     Redo,
@@ -53,6 +54,7 @@ const TABLE: &[Row] = &[
     (Action::Open, "Open…", &[(CTRL, Key::O)]),
     (Action::SaveAs, "Save as…", &[(CTRL_SHIFT, Key::S)]),
     (Action::Save, "Save", &[(CTRL, Key::S)]),
+    (Action::ExportSurface, "Export surface…", &[(CTRL_SHIFT, Key::E)]),
     (Action::Export, "Export picture…", &[(CTRL, Key::E)]),
     (Action::Quit, "Quit", &[(CTRL, Key::Q)]),
     (Action::Redo, "Redo", &[(CTRL_SHIFT, Key::Z), (CTRL, Key::Y)]),
@@ -142,6 +144,10 @@ mod tests {
     fn the_key_with_shift_comes_first() {
         let place = |wanted| TABLE.iter().position(|(action, ..)| *action == wanted).unwrap();
         assert!(place(Action::SaveAs) < place(Action::Save), "consume_shortcut ignores Shift that was not asked for");
+        assert!(
+            place(Action::ExportSurface) < place(Action::Export),
+            "consume_shortcut ignores Shift that was not asked for"
+        );
         assert!(place(Action::Redo) < place(Action::Undo), "consume_shortcut ignores Shift that was not asked for");
         assert!(
             place(Action::Darker) < place(Action::Brighter),

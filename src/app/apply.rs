@@ -4,9 +4,10 @@ use super::action::Action;
 use super::chooser::Purpose;
 use super::command::{Answer, AppCommand, Next};
 use super::dialogs::Dialog;
-use super::edit::Edit;
+use super::edit::{Edit, user_of};
 use super::editor::Editor;
 use super::new_items;
+use super::path_field::PathField;
 use super::selection::{Item, Selection};
 use super::view::View;
 use crate::engine::{self, Status};
@@ -32,10 +33,15 @@ impl Editor {
             AppCommand::PathEntered(path) => self.path_entered(ctx, path),
             AppCommand::TypePath => {
                 if let Some(request) = self.chooser.give_up() {
-                    self.dialog = Some(Dialog::path(request));
+                    self.dialog = Some(Dialog::Path(PathField::instead(request)));
                 }
             }
             AppCommand::CloseDialog => self.close_dialog(),
+            AppCommand::ExportSurface(steps) => {
+                self.dialog = None;
+                self.export.steps = steps;
+                self.choose(ctx, Purpose::ExportSurface);
+            }
             AppCommand::Theme(theme) => ctx.set_theme(theme),
         }
     }
@@ -44,6 +50,7 @@ impl Editor {
         match action {
             Action::New => self.go_to(ctx, Next::New),
             Action::Open | Action::Save | Action::SaveAs | Action::Export => self.file_action(ctx, action),
+            Action::ExportSurface => self.ask_for_surface(),
             Action::Quit => self.go_to(ctx, Next::Quit),
             Action::Undo => self.document.undo(),
             Action::Redo => self.document.redo(),
@@ -82,12 +89,13 @@ impl Editor {
         };
     }
 
-    fn edit(&mut self, edit: Edit) {
+    pub(crate) fn edit(&mut self, edit: Edit) {
         let scene = self.document.scene();
         let added = match &edit {
             Edit::AddObject(_) => Some(Item::Object(scene.objects.len())),
             Edit::AddMaterial(_) => Some(Item::Material(scene.materials.len())),
             Edit::AddLight(_) => Some(Item::Light(scene.lights.len())),
+            Edit::AddTexture(_) => Some(Item::Texture(scene.textures.len())),
             _ => None,
         };
         self.document.edit(edit);
@@ -97,20 +105,15 @@ impl Editor {
     }
 
     fn delete(&mut self) {
-        let (scene, item) = (self.document.scene(), self.document.selection.item);
-        let user = match item {
-            Item::Material(index) => scene
-                .materials
-                .get(index)
-                .and_then(|material| scene.objects.iter().find(|object| object.material == material.name)),
-            _ => None,
-        };
-        match user {
-            Some(object) => {
-                let text = format!("\"{}\" still has this material", object.name);
-                self.toasts.warning(text);
-            }
-            None => self.document.edit(Edit::Remove(item)),
+        let item = self.document.selection.item;
+        if let Some(user) = user_of(self.document.scene(), item) {
+            let text = format!(
+                "\"{user}\" still has this {}",
+                if matches!(item, Item::Texture(_)) { "texture" } else { "material" }
+            );
+            self.toasts.warning(text);
+        } else {
+            self.document.edit(Edit::Remove(item));
         }
     }
 

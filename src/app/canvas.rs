@@ -41,13 +41,22 @@ impl Default for Canvas {
     }
 }
 
+/// What is shown of the scene.
+#[derive(Clone, Copy)]
+pub(crate) struct Picture<'a> {
+    /// The newest picture, if there is one.
+    pub(crate) texture: Option<&'a egui::TextureHandle>,
+    /// Whether it is of the scene as it is now, or will be at once.
+    pub(crate) current: bool,
+}
+
 impl Canvas {
     /// Shows the picture and says what the user did to it.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
         document: &Document,
-        texture: Option<&egui::TextureHandle>,
+        picture: Picture<'_>,
         commands: &mut Vec<AppCommand>,
     ) {
         let scene = document.scene();
@@ -56,7 +65,10 @@ impl Canvas {
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Picture"));
         let placement = self.view.place(rect, film);
         self.placement = Some(placement);
-        paint_picture(ui, &placement, texture);
+        paint_picture(ui, &placement, picture);
+        if !ui.is_enabled() {
+            self.drag = None;
+        }
         let pointer = response.contains_pointer().then(|| ui.input(|input| input.pointer.hover_pos())).flatten();
         self.pixel = pointer.and_then(|pointer| placement.pixel(pointer));
         if let Some(projection) = Projection::new(&scene.camera, &scene.film) {
@@ -269,21 +281,23 @@ fn pick(stage: &Stage<'_>, response: &Response, commands: &mut Vec<AppCommand>) 
     }
 }
 
-fn paint_picture(ui: &Ui, placement: &Placement, texture: Option<&egui::TextureHandle>) {
+fn paint_picture(ui: &Ui, placement: &Placement, Picture { texture, current }: Picture<'_>) {
     let palette = theme::palette(ui.visuals().dark_mode);
     let painter = ui.painter_at(placement.canvas);
     painter.rect_filled(placement.canvas, 0.0, palette.canvas);
     let picture = placement.picture();
+    let tint = if current { Color32::WHITE } else { theme::overlay::OUTDATED };
     match texture {
         Some(texture) => {
             let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-            painter.image(texture.id(), picture, whole, Color32::WHITE);
+            painter.image(texture.id(), picture, whole, tint);
         }
-        None => {
+        None if current => {
             let font = egui::TextStyle::Body.resolve(ui.style());
             let center = placement.canvas.center();
             painter.text(center, egui::Align2::CENTER_CENTER, "Preparing the scene…", font, ui.visuals().text_color());
         }
+        None => {}
     }
     painter.rect_stroke(picture, 0.0, Stroke::new(1.0, palette.frame), StrokeKind::Outside);
 }

@@ -18,6 +18,7 @@ pub(crate) enum Purpose {
     OpenScene,
     SaveScene,
     ExportPicture,
+    ExportSurface,
     AddTexture,
 }
 
@@ -61,13 +62,14 @@ impl Purpose {
             Self::OpenScene => "Open scene",
             Self::SaveScene => "Save scene",
             Self::ExportPicture => "Export picture",
+            Self::ExportSurface => "Export surface",
             Self::AddTexture => "Add texture",
         }
     }
 
     /// Whether the file will be written.
     pub(crate) fn writes(self) -> bool {
-        matches!(self, Self::SaveScene | Self::ExportPicture)
+        matches!(self, Self::SaveScene | Self::ExportPicture | Self::ExportSurface)
     }
 
     /// The extensions it may have; the first is given to a name without one.
@@ -75,7 +77,18 @@ impl Purpose {
         match self {
             Self::OpenScene | Self::SaveScene => &["toml"],
             Self::ExportPicture => &["png", "exr"],
+            Self::ExportSurface => &["obj", "bpt"],
             Self::AddTexture => &["png", "jpg", "jpeg"],
+        }
+    }
+
+    /// What the extensions mean.
+    pub(crate) fn formats(self) -> &'static str {
+        match self {
+            Self::OpenScene | Self::SaveScene => ".toml, a scene",
+            Self::ExportPicture => ".png, as the screen shows it, or .exr, linear 32-bit floats",
+            Self::ExportSurface => ".obj, a mesh, or .bpt, the control points",
+            Self::AddTexture => ".png or .jpg, an image",
         }
     }
 }

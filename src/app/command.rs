@@ -4,6 +4,7 @@ use super::action::Action;
 use super::edit::Edit;
 use super::selection::Selection;
 use egui::ThemePreference;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// A request to the editor.
@@ -23,12 +24,14 @@ pub(crate) enum AppCommand {
     GoTo(Next),
     /// The answer to that question.
     Answer(Answer),
-    /// The path that was typed in place of a file dialog.
+    /// The path that was typed.
     PathEntered(PathBuf),
     /// The file dialog hangs or cannot be had: type the path.
     TypePath,
     /// Close the dialog that is shown.
     CloseDialog,
+    /// Choose a file for the surface, with so many quads along each side of a patch.
+    ExportSurface(NonZeroUsize),
     /// Light or dark.
     Theme(ThemePreference),
 }

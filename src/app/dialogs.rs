@@ -1,13 +1,11 @@
 //! Questions and messages that must be answered before anything else, and files dropped onto the window.
 
 use super::action::Action;
-use super::chooser::Request;
 use super::command::{Answer, AppCommand, Next};
 use super::editor::Editor;
-use super::files::with_extension;
-use super::theme;
-use egui::{Button, Context, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui};
-use std::path::PathBuf;
+use super::path_field::PathField;
+use egui::{Context, DragValue, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui};
+use std::num::NonZeroUsize;
 
 /// The dialog that is shown; there is one at most.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,8 +14,10 @@ pub(crate) enum Dialog {
     Unsaved(Next),
     /// Something went wrong: title, text.
     Error(String, String),
-    /// A path is typed, since no file dialog can be had.
-    Path(Request, String),
+    /// A path is typed.
+    Path(PathField),
+    /// What is exported as a surface: its name, and quads along each side of a patch.
+    Surface(String, usize),
     /// Keys and mouse.
     Help,
 }
@@ -26,12 +26,6 @@ impl Dialog {
     /// A message.
     pub(crate) fn error(title: String, text: String) -> Self {
         Self::Error(title, text)
-    }
-
-    /// A field for a path.
-    pub(crate) fn path(request: Request) -> Self {
-        let text = request.proposal.display().to_string();
-        Self::Path(request, text)
     }
 }
 
@@ -44,7 +38,8 @@ pub(crate) fn dialog_ui(ctx: &Context, editor: &mut Editor, commands: &mut Vec<A
         match dialog {
             Dialog::Unsaved(next) => unsaved_ui(ui, &title, next, commands),
             Dialog::Error(title, text) => error_ui(ui, title, text, commands),
-            Dialog::Path(request, text) => path_ui(ui, request, text, commands),
+            Dialog::Path(field) => field.ui(ui, commands),
+            Dialog::Surface(name, steps) => surface_ui(ui, name, steps, commands),
             Dialog::Help => help_ui(ui, commands),
         }
     });
@@ -72,7 +67,7 @@ fn unsaved_ui(ui: &mut Ui, title: &str, next: &Next, commands: &mut Vec<AppComma
 
 fn error_ui(ui: &mut Ui, title: &str, text: &str, commands: &mut Vec<AppCommand>) {
     ui.heading(title);
-    ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
+    ScrollArea::vertical().max_height(content_height(ui).min(300.0)).show(ui, |ui| {
         // A reference to text is a text field that can be read and copied, not changed.
         let mut shown = text;
         let field = TextEdit::multiline(&mut shown).code_editor().desired_width(f32::INFINITY);
@@ -80,43 +75,27 @@ fn error_ui(ui: &mut Ui, title: &str, text: &str, commands: &mut Vec<AppCommand>
     });
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        if ui.button("Close").clicked() {
-            commands.push(AppCommand::CloseDialog);
-        }
+        close_ui(ui, commands);
         if ui.button("Copy").clicked() {
             ui.ctx().copy_text(text.to_owned());
         }
     });
 }
 
-fn path_ui(ui: &mut Ui, request: &Request, text: &mut String, commands: &mut Vec<AppCommand>) {
-    ui.heading(request.purpose.title());
-    ui.label("This desktop shows no file dialog (it takes xdg-desktop-portal or zenity). Type the path here:");
-    let response = ui.add(TextEdit::singleline(text).desired_width(f32::INFINITY)).accessible_name("Path");
-    let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    if ui.memory(|memory| memory.focused().is_none()) {
-        response.request_focus();
-    }
-    let path = with_extension(request.purpose, PathBuf::from(text.trim()));
-    let replaces = request.purpose.writes() && path.is_file();
-    if replaces {
-        let color = theme::palette(ui.visuals().dark_mode).warning;
-        ui.colored_label(color, format!("{} exists and will be replaced.", path.display()));
-    }
+fn surface_ui(ui: &mut Ui, name: &str, steps: &mut usize, commands: &mut Vec<AppCommand>) {
+    ui.heading("Export surface");
+    ui.label(format!("{name}, where it stands in the scene: as a mesh (.obj) or as control points (.bpt)."));
+    ui.horizontal(|ui| {
+        let label = ui.label("Quads along each side of a patch");
+        ui.add(DragValue::new(steps).range(1..=1024).speed(0.2)).labelled_by(label.id);
+        ui.weak("in an .obj");
+    });
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        let verb = if replaces {
-            "Replace"
-        } else if request.purpose.writes() {
-            "Save"
-        } else {
-            "Open"
-        };
-        let usable = !text.trim().is_empty() && !path.is_dir();
-        let clicked = ui.add_enabled(usable, Button::new(verb)).clicked();
-        // Enter alone does not replace a file.
-        if clicked || (entered && usable && !replaces) {
-            commands.push(AppCommand::PathEntered(path));
+        let choose = ui.button("Choose file…");
+        let typing = ui.memory(|memory| memory.focused().is_some());
+        if choose.clicked() || (!typing && ui.input(|input| input.key_pressed(Key::Enter))) {
+            commands.extend(NonZeroUsize::new(*steps).map(AppCommand::ExportSurface));
         }
         if ui.button("Cancel").clicked() {
             commands.push(AppCommand::CloseDialog);
@@ -136,7 +115,7 @@ fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         ("Drag a number", "changes it, slowly with Shift; click it to type"),
     ];
     ui.heading("Keys and mouse");
-    ScrollArea::vertical().max_height(460.0).show(ui, |ui| {
+    ScrollArea::vertical().max_height(content_height(ui)).show(ui, |ui| {
         Grid::new("help").num_columns(2).spacing([24.0, 3.0]).show(ui, |ui| {
             for (what, does) in MOUSE {
                 ui.strong(what);
@@ -150,9 +129,20 @@ fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
             }
         });
     });
-    if ui.button("Close").clicked() {
+    close_ui(ui, commands);
+}
+
+/// What there is to read is done with; Enter says so too.
+fn close_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+    let free = ui.memory(|memory| memory.focused().is_none());
+    if ui.button("Close").clicked() || (free && ui.input(|input| input.key_pressed(Key::Enter))) {
         commands.push(AppCommand::CloseDialog);
     }
+}
+
+/// What a dialog's content may be high for its title and buttons to stay within the window.
+fn content_height(ui: &Ui) -> f32 {
+    (ui.ctx().content_rect().height() - 120.0).max(60.0)
 }
 
 /// Opens the scene file that was dropped onto the window.

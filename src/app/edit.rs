@@ -34,7 +34,7 @@ pub(crate) enum Edit {
     AddLight(Light),
     /// A new texture at the end of the list.
     AddTexture(Texture),
-    /// An object, material or light goes.
+    /// An object, material, light or texture goes.
     Remove(Item),
 }
 
@@ -110,6 +110,22 @@ fn replace_texture(scene: &mut Scene, index: usize, texture: Texture) {
     replace(&mut scene.textures, index, texture);
 }
 
+/// What still needs an item, by name: an object its material, a material its textures.
+pub(crate) fn user_of(scene: &Scene, item: Item) -> Option<&str> {
+    match item {
+        Item::Material(index) => {
+            let used = &scene.materials.get(index)?.name;
+            scene.objects.iter().find(|object| object.material == *used).map(|object| object.name.as_str())
+        }
+        Item::Texture(index) => {
+            let used = &scene.textures.get(index)?.name;
+            let uses = |material: &&Material| texture_names(&mut (*material).clone()).contains(&&mut used.clone());
+            scene.materials.iter().find(uses).map(|material| material.name.as_str())
+        }
+        _ => None,
+    }
+}
+
 /// Every place in a material that names a texture.
 fn texture_names(material: &mut Material) -> Vec<&mut String> {
     let colors = match &mut material.model {
@@ -134,6 +150,7 @@ fn remove(scene: &mut Scene, item: Item) {
         Item::Object(index) if index < scene.objects.len() => drop(scene.objects.remove(index)),
         Item::Material(index) if index < scene.materials.len() => drop(scene.materials.remove(index)),
         Item::Light(index) if index < scene.lights.len() => drop(scene.lights.remove(index)),
+        Item::Texture(index) if index < scene.textures.len() => drop(scene.textures.remove(index)),
         _ => {}
     }
 }
@@ -177,6 +194,17 @@ mod tests {
         Edit::Texture(0, renamed).apply(&mut scene);
         let names: Vec<_> = texture_names(&mut scene.materials[0]).into_iter().map(|name| name.clone()).collect();
         assert_eq!(names, ["wood", "wood"], "in the colour and in the relief");
+    }
+
+    #[test]
+    fn what_is_in_use_has_a_user() {
+        let mut scene = scene();
+        assert_eq!(user_of(&scene, Item::Texture(0)), Some("floor"));
+        assert_eq!(user_of(&scene, Item::Material(0)), Some("ball"));
+        Edit::Remove(Item::Object(0)).apply(&mut scene);
+        assert_eq!(user_of(&scene, Item::Material(0)), None);
+        Edit::Remove(Item::Material(0)).apply(&mut scene);
+        assert_eq!(user_of(&scene, Item::Texture(0)), None);
     }
 
     #[test]

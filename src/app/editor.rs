@@ -1,7 +1,7 @@
 //! The window's content, without the window and without the engine: frames come in, commands go out.
 
 use super::action;
-use super::canvas::Canvas;
+use super::canvas::{Canvas, Picture};
 use super::chooser::Chooser;
 use super::command::{AppCommand, Next};
 use super::dialogs::{self, Dialog};
@@ -15,7 +15,7 @@ use super::rendering::Rendering;
 use super::status_bar::status_bar_ui;
 use crate::engine::{self, Frame, Status};
 use crate::scene::{Problem, SceneFile, validate};
-use egui::{CentralPanel, Context, Panel, ScrollArea, Ui};
+use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 use egui_notify::{Anchor, Toasts};
 use std::sync::Arc;
 
@@ -89,7 +89,11 @@ impl Editor {
     /// Draws everything, then does what the user asked for.
     pub(crate) fn ui(&mut self, ui: &mut Ui) {
         let mut commands = Vec::new();
-        if self.dialog.is_none() {
+        if self.dialog.is_some() {
+            // What lies under a dialog does not react and shows no tips; the dialog itself dims it.
+            ui.disable();
+            ui.set_opacity(1.0);
+        } else {
             commands.extend(action::pressed(ui.ctx()).into_iter().map(AppCommand::Do));
         }
         commands.extend(dialogs::dropped_files(ui.ctx()));
@@ -99,8 +103,12 @@ impl Editor {
             self.panels_ui(ui, &mut commands);
         }
         CentralPanel::no_frame().show(ui, |ui| {
-            notices::notices_ui(ui, self, &mut commands);
-            self.canvas.show(ui, &self.document, self.display.texture(), &mut commands);
+            let canvas = ui.available_rect_before_wrap();
+            let current = self.problems.is_empty() && !matches!(self.rendering.status(), Status::Failed(_));
+            let picture = Picture { texture: self.display.texture(), current };
+            self.canvas.show(ui, &self.document, picture, &mut commands);
+            // Over the picture, which therefore stays where it is when they come and go.
+            ui.scope_builder(UiBuilder::new().max_rect(canvas), |ui| notices::notices_ui(ui, self, &mut commands));
         });
         dialogs::dialog_ui(ui.ctx(), self, &mut commands);
         self.toasts.show(ui.ctx());
@@ -120,7 +128,7 @@ impl Editor {
             });
         });
         Panel::right("scene").default_size(360.0).min_size(356.0).show(ui, |ui| {
-            Panel::top("outline").resizable(true).default_size(280.0).min_size(80.0).show(ui, |ui| {
+            Panel::top("outline").resizable(true).default_size(340.0).min_size(80.0).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
             });
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

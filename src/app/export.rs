@@ -1,28 +1,33 @@
-//! Writing the picture, off the UI thread.
+//! Writing the picture and the surface, off the UI thread.
 
+use super::chooser::Purpose;
 use super::dialogs::Dialog;
 use super::editor::Editor;
 use crate::engine::Frame;
+use crate::file::write_whole;
 use crate::film::{ToneMap, write_exr, write_png};
-use crate::scene::Film;
+use crate::scene::{Film, Surface, SurfaceFormat};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use egui::Context;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-type Written = (PathBuf, Result<(), String>);
+type Written = (Purpose, PathBuf, Result<(), String>);
 
-/// The picture to be written and what became of those before.
+/// The picture to be written and what became of what was written before.
 pub(crate) struct Export {
     /// Where to write the next picture that is no draft.
     waiting: Option<PathBuf>,
+    /// Quads along each side of a patch, in a mesh.
+    pub(crate) steps: NonZeroUsize,
     // One message for one click.
     done: (Sender<Written>, Receiver<Written>),
 }
 
 impl Default for Export {
     fn default() -> Self {
-        Self { waiting: None, done: unbounded() }
+        Self { waiting: None, steps: Surface::STEPS, done: unbounded() }
     }
 }
 
@@ -30,6 +35,22 @@ impl Export {
     /// The picture to come is of another scene.
     pub(crate) fn forget_waiting(&mut self) {
         self.waiting = None;
+    }
+
+    fn spawn(
+        &self,
+        ctx: &Context,
+        purpose: Purpose,
+        path: PathBuf,
+        write: impl FnOnce(&Path) -> Result<(), String> + Send + 'static,
+    ) {
+        let (done, ctx) = (self.done.0.clone(), ctx.clone());
+        rayon::spawn(move || {
+            let written = write(&path);
+            // Closed only when the window is.
+            done.send((purpose, path, written)).ok();
+            ctx.request_repaint();
+        });
     }
 }
 
@@ -42,28 +63,47 @@ impl Editor {
         self.export.waiting = Some(path);
     }
 
+    /// Asks how the surface is to be exported.
+    pub(crate) fn ask_for_surface(&mut self) {
+        match self.surface() {
+            Some(surface) => self.dialog = Some(Dialog::Surface(surface.name, self.export.steps.get())),
+            None => {
+                self.toasts.warning("The scene has no Bezier object to export");
+            }
+        }
+    }
+
+    /// The selected Bezier object, or all of them.
+    fn surface(&self) -> Option<Surface> {
+        let scene = self.document.scene();
+        let selected = self.document.selection.object(scene).and_then(|object| Surface::of([object]));
+        selected.or_else(|| Surface::of(&scene.objects))
+    }
+
+    /// Writes the surface.
+    pub(crate) fn export_surface(&self, ctx: &Context, path: PathBuf) {
+        let (Some(surface), Some(format)) = (self.surface(), SurfaceFormat::of(&path)) else { return };
+        let steps = self.export.steps;
+        self.export.spawn(ctx, Purpose::ExportSurface, path, move |path| {
+            write_whole(path, surface.text(format, steps).as_bytes())
+                .map_err(|error| format!("{} cannot be written: {error}", path.display()))
+        });
+    }
+
     /// Goes on with what was asked for, says what was done.
     pub(crate) fn poll_export(&mut self, ctx: &Context) {
         if let Some(frame) = self.rendering.full_frame()
             && let Some(path) = self.export.waiting.take()
         {
             let (frame, film) = (Arc::clone(frame), self.document.scene().film);
-            let (done, ctx) = (self.export.done.0.clone(), ctx.clone());
-            rayon::spawn(move || {
-                let written = write(&path, &frame, &film);
-                // Closed only when the window is.
-                done.send((path, written)).ok();
-                ctx.request_repaint();
-            });
+            self.export.spawn(ctx, Purpose::ExportPicture, path, move |path| write(path, &frame, &film));
         }
-        while let Ok((path, written)) = self.export.done.1.try_recv() {
+        while let Ok((purpose, path, written)) = self.export.done.1.try_recv() {
             match written {
                 Ok(()) => {
                     self.toasts.success(format!("Exported {}", path.display()));
                 }
-                Err(error) => {
-                    self.dialog = Some(Dialog::error(format!("{} was not written", path.display()), error));
-                }
+                Err(error) => self.ask_again(purpose, &path, error),
             }
         }
     }

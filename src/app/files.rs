@@ -7,6 +7,7 @@ use super::document::Document;
 use super::edit::Edit;
 use super::editor::{Editor, same_picture};
 use super::new_items;
+use super::path_field::{PathField, complete};
 use super::view::View;
 use crate::scene::{SceneError, SceneFile};
 use egui::Context;
@@ -51,24 +52,41 @@ impl Editor {
         match outcome {
             Outcome::Chosen(path) => self.use_path(ctx, request.purpose, path),
             Outcome::Cancelled => self.after_save = None,
-            Outcome::Unavailable => self.dialog = Some(Dialog::path(request)),
+            Outcome::Unavailable => self.dialog = Some(Dialog::Path(PathField::instead(request))),
         }
     }
 
     /// A path was typed; one to write to has been confirmed where a file is there.
     pub(crate) fn path_entered(&mut self, ctx: &Context, path: PathBuf) {
-        if let Some(Dialog::Path(request, _)) = self.dialog.take() {
-            self.carry_out(ctx, request.purpose, path);
+        let Some(Dialog::Path(field)) = self.dialog.take() else { return };
+        match complete(field.purpose, path.clone()) {
+            Ok(complete) if !field.purpose.writes() && !complete.is_file() => {
+                self.ask_again(field.purpose, &path, "There is no such file.".to_owned());
+            }
+            Ok(complete) => self.carry_out(ctx, field.purpose, complete),
+            Err(error) => self.ask_again(field.purpose, &path, error),
         }
     }
 
     /// A path came from a dialog, which asked before replacing a file; not so where the extension was missing.
     fn use_path(&mut self, ctx: &Context, purpose: Purpose, path: PathBuf) {
-        let complete = with_extension(purpose, path.clone());
-        if complete != path && complete.exists() {
-            self.dialog = Some(Dialog::path(Request { purpose, proposal: complete }));
+        match complete(purpose, path.clone()) {
+            Ok(complete) if complete != path && complete.exists() => {
+                self.dialog = Some(Dialog::Path(PathField::again(purpose, &complete, None)));
+            }
+            Ok(complete) => self.carry_out(ctx, purpose, complete),
+            Err(error) => self.ask_again(purpose, &path, error),
+        }
+    }
+
+    /// The path did not serve: it can be corrected.
+    pub(crate) fn ask_again(&mut self, purpose: Purpose, path: &Path, error: String) {
+        if self.dialog.is_some() {
+            // Whatever is asked there comes first.
+            self.after_save = None;
+            self.toasts.error(error);
         } else {
-            self.carry_out(ctx, purpose, complete);
+            self.dialog = Some(Dialog::Path(PathField::again(purpose, path, Some(error))));
         }
     }
 
@@ -77,9 +95,10 @@ impl Editor {
             Purpose::OpenScene => self.apply(ctx, super::command::AppCommand::GoTo(super::command::Next::Open(path))),
             Purpose::SaveScene => self.save(ctx, path),
             Purpose::ExportPicture => self.start_export(path),
+            Purpose::ExportSurface => self.export_surface(ctx, path),
             Purpose::AddTexture => {
                 let texture = new_items::texture(self.document.scene(), &path);
-                self.document.edit(Edit::AddTexture(texture));
+                self.edit(Edit::AddTexture(texture));
             }
         }
     }
@@ -114,37 +133,7 @@ impl Editor {
                     self.go(ctx, next);
                 }
             }
-            Err(error) => {
-                self.after_save = None;
-                self.dialog = Some(Dialog::error("The scene was not saved".to_owned(), error.to_string()));
-            }
+            Err(error) => self.ask_again(Purpose::SaveScene, &path, error.to_string()),
         }
-    }
-}
-
-/// The path with the first extension that this purpose knows, unless it has one of them.
-pub(crate) fn with_extension(purpose: Purpose, path: PathBuf) -> PathBuf {
-    let known = |extension: &str| purpose.extensions().iter().any(|known| extension.eq_ignore_ascii_case(known));
-    if !purpose.writes() || path.extension().is_some_and(|extension| known(&extension.to_string_lossy())) {
-        return path;
-    }
-    // Appended, not replaced: in "view 1.5" the 5 is no extension.
-    let mut name = path.into_os_string();
-    name.push(".");
-    name.push(purpose.extensions()[0]);
-    PathBuf::from(name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_missing_extension_is_appended() {
-        let path = |purpose, path: &str| with_extension(purpose, PathBuf::from(path)).display().to_string();
-        assert_eq!(path(Purpose::ExportPicture, "a/view 1.5"), "a/view 1.5.png");
-        assert_eq!(path(Purpose::ExportPicture, "a/b.EXR"), "a/b.EXR");
-        assert_eq!(path(Purpose::SaveScene, "room"), "room.toml");
-        assert_eq!(path(Purpose::OpenScene, "room"), "room");
     }
 }

@@ -41,7 +41,7 @@ fn file_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         }
     });
     ui.separator();
-    for action in [Action::Save, Action::SaveAs, Action::Export] {
+    for action in [Action::Save, Action::SaveAs, Action::Export, Action::ExportSurface] {
         item_ui(ui, action, action.label(), true, commands);
     }
     ui.separator();

@@ -24,6 +24,7 @@ mod new_items;
 mod notices;
 mod overlay;
 mod panels;
+mod path_field;
 mod picking;
 mod projection;
 mod rendering;

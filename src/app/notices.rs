@@ -4,7 +4,10 @@ use super::command::AppCommand;
 use super::editor::Editor;
 use super::theme;
 use crate::engine::Status;
-use egui::{Color32, Frame, Ui};
+use egui::{Color32, Frame, ScrollArea, Ui};
+
+/// Of a long list of problems, screen points: the picture stays in sight.
+const MAX_HEIGHT: f32 = 120.0;
 
 /// Nothing where all is well.
 pub(crate) fn notices_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
@@ -21,9 +24,11 @@ pub(crate) fn notices_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCom
                 palette.warning,
                 "⚠ This scene cannot be rendered; the picture shows the last one that could:",
             );
-            for problem in &editor.problems {
-                ui.label(problem.to_string());
-            }
+            ScrollArea::vertical().max_height(MAX_HEIGHT).show(ui, |ui| {
+                for problem in &editor.problems {
+                    ui.label(problem.to_string());
+                }
+            });
         });
     }
     if let Some(request) = editor.chooser.pending().filter(|_| editor.chooser.is_slow(ui.ctx())) {

@@ -17,6 +17,8 @@ pub(crate) enum Item {
     Material(usize),
     /// A source of light.
     Light(usize),
+    /// An image.
+    Texture(usize),
 }
 
 /// A control point of a Bezier object: `patches[patch].points[i][j]`.
@@ -56,6 +58,7 @@ impl Selection {
             Item::Object(index) => index < scene.objects.len(),
             Item::Material(index) => index < scene.materials.len(),
             Item::Light(index) => index < scene.lights.len(),
+            Item::Texture(index) => index < scene.textures.len(),
         };
         if !exists {
             return Self::first_of(scene);

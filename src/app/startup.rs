@@ -104,9 +104,11 @@ fn quietly_until(
     let outcome = panic::catch_unwind(AssertUnwindSafe(run));
     panic::set_hook(Box::new(move |info| usual(info)));
     match outcome {
-        Ok(result) => result.map_err(|error| engine_error(error).unwrap_or_else(|error| fail(error.to_string()))),
+        Ok(result) => {
+            result.map_err(|error| engine_error(error).unwrap_or_else(|error| fail(plain(&error.to_string()))))
+        }
         Err(payload) if shown.load(Ordering::Relaxed) => panic::resume_unwind(payload),
-        Err(payload) => Err(fail(panic_text(payload.as_ref()))),
+        Err(payload) => Err(fail(plain(&panic_text(payload.as_ref())))),
     }
 }
 
@@ -119,6 +121,13 @@ fn engine_error(error: eframe::Error) -> Result<AppError, eframe::Error> {
         },
         other => Err(other),
     }
+}
+
+/// The reason without the line of a library's source that some of them put before it.
+fn plain(reason: &str) -> String {
+    let after_line = reason.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    let sentence = after_line.filter(|(line, _)| line.bytes().all(|byte| byte.is_ascii_digit() || byte == b':'));
+    sentence.map_or(reason, |(_, sentence)| sentence).to_owned()
 }
 
 fn panic_text(payload: &(dyn Any + Send)) -> String {
@@ -142,6 +151,13 @@ mod tests {
         assert!(message.contains("libxkbcommon-x11.so could not be loaded"), "the reason: {message}");
         assert!(message.contains("apt install") && message.contains("libxkbcommon-x11-0"), "the package: {message}");
         assert!(message.contains("patchlight render"), "what works at once: {message}");
+    }
+
+    #[test]
+    fn a_reason_names_no_source_file() {
+        let reason = "winit EventLoopError: os error at /a/b-0.3/src/mod.rs:788: Failed to open connection to X server";
+        assert_eq!(plain(reason), "Failed to open connection to X server");
+        assert_eq!(plain("no config: all were tried"), "no config: all were tried");
     }
 
     #[test]

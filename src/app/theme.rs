@@ -1,5 +1,6 @@
 //! Every colour of the window.
 
+use egui::style::ScrollStyle;
 use egui::{Color32, Context, CornerRadius, Stroke, Theme, Visuals};
 
 /// The colours that egui's own style does not hold.
@@ -57,6 +58,8 @@ pub(crate) mod overlay {
     pub(crate) const HOVERED: Color32 = Color32::from_rgb(255, 226, 120);
     /// A selected handle.
     pub(crate) const SELECTED: Color32 = Color32::from_rgb(255, 150, 40);
+    /// What a picture that is not of the present scene is multiplied by.
+    pub(crate) const OUTDATED: Color32 = Color32::from_gray(90);
     /// A light.
     pub(crate) const LIGHT: Color32 = Color32::from_rgb(255, 236, 130);
 }
@@ -80,6 +83,8 @@ pub(crate) fn install(ctx: &Context) {
         style.spacing.item_spacing = egui::vec2(6.0, 5.0);
         style.spacing.interact_size.y = 20.0;
         style.spacing.slider_width = 130.0;
+        // A bar that hides tells nobody that there is more below.
+        style.spacing.scroll = ScrollStyle::solid();
     });
 }
 

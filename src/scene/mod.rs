@@ -17,6 +17,7 @@ mod object;
 mod problem;
 mod render;
 mod save;
+mod surface;
 mod texture;
 mod validate;
 
@@ -32,6 +33,7 @@ pub use material::{Color, Material, MaterialModel, Relief};
 pub use object::{Object, Shape};
 pub use problem::Problem;
 pub use render::Render;
+pub use surface::{Surface, SurfaceFormat};
 pub use texture::{Encoding, Texture, TextureUse};
 pub use validate::validate;
 

@@ -2,12 +2,14 @@
 
 use crate::app::theme;
 use crate::math::Rgb;
-use egui::{ComboBox, DragValue, Grid, RichText, TextEdit, Ui};
+use egui::{ComboBox, DragValue, Grid, Layout, RichText, TextEdit, Ui, Vec2, vec2};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
-/// Room for a sign and seven digits, screen points.
-const FIELD_SIZE: [f32; 2] = [60.0, 20.0];
+/// Room for the longest short number, screen points.
+const FIELD_SIZE: Vec2 = vec2(60.0, 20.0);
+/// Digits before and after the point that a field has room for.
+const DIGITS: usize = 5;
 
 /// How a number is entered.
 #[derive(Clone, Debug)]
@@ -51,26 +53,52 @@ pub(super) fn rows(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
 }
 
 /// A number without a label; `name` is for assistive technology.
+///
+/// All have one width, or the panel would grow and the picture move while something is dragged: a number is shown short,
+/// and in full where it is typed.
 pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
-    let field = DragValue::new(value)
-        .speed(spec.speed)
-        .range(spec.range.clone())
-        // A number from the file stays as it is until it is edited.
-        .clamp_existing_to_range(false)
-        .max_decimals(6)
-        .suffix(spec.unit)
-        .update_while_editing(false);
-    // Of one width for all numbers, or the panel would grow and the picture move while a number is dragged.
-    let response = ui.add_sized(FIELD_SIZE, field.clip_text(true)).accessible_name(name);
-    if !spec.tip.is_empty() {
-        response.on_hover_text(spec.tip);
+    let layout = Layout::centered_and_justified(ui.layout().main_dir());
+    ui.allocate_ui_with_layout(FIELD_SIZE, layout, |ui| {
+        let (ctx, id) = (ui.ctx().clone(), ui.next_auto_id());
+        let field = DragValue::new(value)
+            .speed(spec.speed)
+            .range(spec.range.clone())
+            // A number from the file stays as it is until it is edited.
+            .clamp_existing_to_range(false)
+            .custom_formatter(move |value, decimals| {
+                let typed = ctx.memory(|memory| memory.has_focus(id));
+                if typed { value.to_string() } else { short(value, *decimals.start()) }
+            })
+            .update_while_editing(false);
+        let response = ui.add(field.clip_text(true)).accessible_name(name);
+        if !spec.tip.is_empty() {
+            response.on_hover_text(spec.tip);
+        }
+    });
+    unit_ui(ui, spec.unit);
+}
+
+fn unit_ui(ui: &mut Ui, unit: &str) {
+    if !unit.is_empty() {
+        ui.weak(unit);
     }
+}
+
+/// A number in no more room than a field has.
+fn short(value: f64, decimals: usize) -> String {
+    let size = value.abs();
+    if value != 0.0 && !(1e-3..1e5).contains(&size) {
+        return format!("{value:.1e}");
+    }
+    let before_point = if size < 1.0 { 1 } else { 1 + size.log10() as usize };
+    let most = DIGITS.saturating_sub(before_point);
+    egui::emath::format_with_decimals_in_range(value, decimals.min(most)..=most)
 }
 
 /// A row with a number.
 pub(super) fn number_row(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
     ui.label(name);
-    number(ui, name, value, spec);
+    ui.horizontal(|ui| number(ui, name, value, spec));
     ui.end_row();
 }
 
@@ -87,8 +115,9 @@ pub(super) fn vector(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Number) 
     ui.spacing_mut().item_spacing.x = 3.0;
     for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
         ui.label(RichText::new(axis).color(axes[k]));
-        number(ui, &format!("{name} {axis}"), &mut value[k], spec);
+        number(ui, &format!("{name} {axis}"), &mut value[k], &Number { unit: "", ..spec.clone() });
     }
+    unit_ui(ui, spec.unit);
 }
 
 /// A row with a colour: reflectance, one part of the light a channel.
@@ -107,22 +136,27 @@ pub(super) fn color(ui: &mut Ui, name: &str, value: &mut Rgb, spec: &Number) {
         *value = Rgb::from_array(picked);
     }
     for (k, channel) in ["red", "green", "blue"].into_iter().enumerate() {
-        let mut component = f64::from(value[k]);
+        let mut component = decimal(value[k]);
         number(ui, &format!("{name} {channel}"), &mut component, spec);
-        // Through the decimal form: 0.1 typed is 0.1 in the file, though f32 and f64 differ.
         if component as f32 != value[k] {
             value[k] = component as f32;
         }
     }
 }
 
+/// The f64 with the shortest decimal form that is this f32: 0.1 is shown as 0.1, though f32 and f64 differ.
+fn decimal(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or_else(|_| f64::from(value))
+}
+
 /// A row with a light's strength: a colour whose largest channel is 1, and a factor.
 pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'static str) {
     let peak = value.max_element();
     ui.label(name);
-    let mut factor = f64::from(peak);
+    let mut factor = decimal(peak);
     let speed = (0.01 * factor).max(0.001);
-    number(ui, name, &mut factor, &Number::positive(speed).unit(unit).tip("The strongest channel"));
+    let spec = Number::positive(speed).unit(unit).tip("The strongest channel");
+    ui.horizontal(|ui| number(ui, name, &mut factor, &spec));
     ui.end_row();
     let mut hue = if peak > 0.0 { *value / peak } else { Rgb::ONE };
     let before = hue;
@@ -158,7 +192,7 @@ pub(super) fn choice_row<'a>(ui: &mut Ui, name: &str, value: &mut String, choice
 
 /// One name out of several.
 pub(super) fn choice<'a>(ui: &mut Ui, name: &str, value: &mut String, choices: impl Iterator<Item = &'a str>) {
-    let combo = ComboBox::from_id_salt(name).selected_text(value.as_str()).width(150.0);
+    let combo = ComboBox::from_id_salt(name).selected_text(value.as_str()).width(150.0).truncate();
     let response = combo.show_ui(ui, |ui| {
         for choice in choices {
             ui.selectable_value(value, choice.to_owned(), choice);
@@ -182,4 +216,24 @@ pub(super) fn kind_row<T: Copy>(ui: &mut Ui, name: &str, current: &str, kinds: &
     response.response.accessible_name(name);
     ui.end_row();
     chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_keep_their_sense() {
+        let shown = [0.3, -0.188_712_345, 0.5, 36.0, 1234.5678, -98_765.4, 0.0, 1e12, -2.5e-5].map(|x| short(x, 3));
+        assert_eq!(shown, ["0.300", "-0.1887", "0.500", "36.000", "1234.6", "-98765", "0.000", "1.0e12", "-2.5e-5"]);
+        assert!(shown.iter().all(|text| text.len() <= 7), "{shown:?}");
+    }
+
+    #[test]
+    fn a_channel_has_the_number_that_was_typed() {
+        for value in [0.1_f32, 1.0 / 3.0, 17.0, 0.0] {
+            assert_eq!(decimal(value) as f32, value);
+        }
+        assert_eq!(decimal(0.1), 0.1);
+    }
 }

@@ -32,18 +32,18 @@ fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, speed: f64) {
     match emitter {
         Emitter::Point { position, intensity } => {
             vector_row(ui, "Position", position, &length);
-            strength_row(ui, "Intensity", intensity, " W/sr");
+            strength_row(ui, "Intensity", intensity, "W/sr");
         }
         Emitter::Sphere { center, radius, radiance } => {
             vector_row(ui, "Centre", center, &length);
             number_row(ui, "Radius", radius, &Number::positive(speed));
-            strength_row(ui, "Radiance", radiance, " W/sr/m²");
+            strength_row(ui, "Radiance", radiance, "W/sr/m²");
         }
         Emitter::Quad { corner, edge_u, edge_v, radiance } => {
             vector_row(ui, "Corner", corner, &length);
             vector_row(ui, "Edge u", edge_u, &length);
             vector_row(ui, "Edge v", edge_v, &length);
-            strength_row(ui, "Radiance", radiance, " W/sr/m²");
+            strength_row(ui, "Radiance", radiance, "W/sr/m²");
         }
     }
 }

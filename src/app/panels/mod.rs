@@ -10,6 +10,7 @@ mod plan;
 mod progress;
 mod properties;
 mod settings;
+mod textures;
 
 pub(crate) use outline::outline_ui;
 pub(crate) use progress::{ErrorCurve, duration, grouped, progress_ui};

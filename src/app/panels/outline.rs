@@ -6,16 +6,33 @@ use crate::app::document::Document;
 use crate::app::edit::Edit;
 use crate::app::new_items;
 use crate::app::selection::{Item, Selection};
-use crate::scene::{Emitter, MaterialModel, Shape};
-use egui::{Button, CollapsingHeader, Ui};
+use crate::scene::{Emitter, Encoding, MaterialModel, Shape};
+use egui::{Align, Button, CollapsingHeader, Layout, Ui, UiBuilder};
+
+/// Between the rows, screen points: little, so that all sections are in sight.
+const SPACING: f32 = 1.0;
+
+/// A part of the list that can be folded.
+struct Section {
+    title: &'static str,
+    /// At the start.
+    open: bool,
+    item: fn(usize) -> Item,
+}
+
+const OBJECTS: Section = Section { title: "Objects", open: true, item: Item::Object };
+const LIGHTS: Section = Section { title: "Lights", open: true, item: Item::Light };
+const MATERIALS: Section = Section { title: "Materials", open: false, item: Item::Material };
+const TEXTURES: Section = Section { title: "Textures", open: false, item: Item::Texture };
 
 /// The scene as a list; a click selects.
 pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
+    ui.spacing_mut().item_spacing.y = SPACING;
     row_ui(ui, document, Item::Camera, "Camera", "", commands);
     row_ui(ui, document, Item::Settings, "Picture and rendering", "", commands);
     let objects = scene.objects.iter().map(|object| (object.name.as_str(), shape_kind(&object.shape)));
-    section_ui(ui, "Objects", objects, document, Item::Object, commands, |ui, commands| {
+    section_ui(ui, &OBJECTS, objects, document, commands, |ui, commands| {
         for (label, shape) in new_items::shapes() {
             if ui.button(label).clicked() {
                 commands.push(AppCommand::Edit(Edit::AddObject(new_items::object(scene, label, shape))));
@@ -23,7 +40,7 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
         }
     });
     let lights = scene.lights.iter().map(|light| (light.name.as_str(), emitter_kind(&light.emitter)));
-    section_ui(ui, "Lights", lights, document, Item::Light, commands, |ui, commands| {
+    section_ui(ui, &LIGHTS, lights, document, commands, |ui, commands| {
         for (label, emitter) in new_items::emitters() {
             if ui.button(label).clicked() {
                 commands.push(AppCommand::Edit(Edit::AddLight(new_items::light(scene, label, emitter))));
@@ -31,31 +48,41 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
         }
     });
     let materials = scene.materials.iter().map(|material| (material.name.as_str(), model_kind(&material.model)));
-    section_ui(ui, "Materials", materials, document, Item::Material, commands, |ui, commands| {
+    section_ui(ui, &MATERIALS, materials, document, commands, |ui, commands| {
         for (label, model) in new_items::models() {
             if ui.button(label).clicked() {
                 commands.push(AppCommand::Edit(Edit::AddMaterial(new_items::material(scene, label, model))));
             }
         }
     });
+    let textures = scene.textures.iter().map(|texture| (texture.name.as_str(), encoding_kind(texture.encoding)));
+    section_ui(ui, &TEXTURES, textures, document, commands, |ui, commands| {
+        if ui.button("from a PNG or JPEG file…").clicked() {
+            commands.push(AppCommand::AddTexture);
+        }
+    });
 }
 
 fn section_ui<'a>(
     ui: &mut Ui,
-    title: &'static str,
+    section: &Section,
     entries: impl ExactSizeIterator<Item = (&'a str, &'static str)>,
     document: &Document,
-    item: impl Fn(usize) -> Item,
     commands: &mut Vec<AppCommand>,
     add_ui: impl FnOnce(&mut Ui, &mut Vec<AppCommand>),
 ) {
-    let header = format!("{title} ({})", entries.len());
-    CollapsingHeader::new(header).id_salt(title).default_open(true).show(ui, |ui| {
+    let header = format!("{} ({})", section.title, entries.len());
+    let fold = CollapsingHeader::new(header).id_salt(section.title).default_open(section.open);
+    let header = fold.show(ui, |ui| {
         for (index, (name, kind)) in entries.enumerate() {
-            row_ui(ui, document, item(index), name, kind, commands);
+            row_ui(ui, document, (section.item)(index), name, kind, commands);
         }
-        ui.menu_button("Add…", |ui| add_ui(ui, commands)).response.on_hover_text(format!("Add to {title}"));
     });
+    // At the right end of the header's row, beside the header.
+    let row = header.header_response.rect.with_max_x(ui.max_rect().right());
+    let builder = UiBuilder::new().max_rect(row).layout(Layout::right_to_left(Align::Center));
+    let add = ui.new_child(builder).menu_button("+ Add", |ui| add_ui(ui, commands)).response;
+    add.accessible_name(format!("Add to {}", section.title));
 }
 
 fn row_ui(ui: &mut Ui, document: &Document, item: Item, name: &str, kind: &str, commands: &mut Vec<AppCommand>) {
@@ -65,9 +92,10 @@ fn row_ui(ui: &mut Ui, document: &Document, item: Item, name: &str, kind: &str, 
     if response.clicked() || response.secondary_clicked() {
         commands.push(AppCommand::Select(Selection::of(item)));
     }
-    if matches!(item, Item::Object(_) | Item::Light(_) | Item::Material(_)) {
+    if !matches!(item, Item::Camera | Item::Settings) {
         response.context_menu(|ui| {
-            for action in [Action::Duplicate, Action::Delete] {
+            let copy = (!matches!(item, Item::Texture(_))).then_some(Action::Duplicate);
+            for action in copy.into_iter().chain([Action::Delete]) {
                 if ui.add(Button::new(action.label()).shortcut_text(action.shortcut(ui.ctx()))).clicked() {
                     commands.push(AppCommand::Do(action));
                 }
@@ -103,5 +131,13 @@ pub(super) fn model_kind(model: &MaterialModel) -> &'static str {
         MaterialModel::Polished { .. } => "polished",
         MaterialModel::Mirror { .. } => "mirror",
         MaterialModel::Glass { .. } => "glass",
+    }
+}
+
+/// What a kind of encoding is called.
+fn encoding_kind(encoding: Encoding) -> &'static str {
+    match encoding {
+        Encoding::Srgb => "sRGB",
+        Encoding::Linear => "linear",
     }
 }

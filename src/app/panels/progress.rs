@@ -8,8 +8,8 @@ use crate::app::edit::Edit;
 use crate::app::rendering::Rendering;
 use crate::app::theme;
 use crate::engine::{PassSeconds, Stats};
-use egui::{CollapsingHeader, Grid, Ui};
-use egui_plot::{Line, Plot, PlotPoints};
+use egui::{CollapsingHeader, Grid, Label, RichText, TextWrapMode, Ui};
+use egui_plot::{GridInput, GridMark, Line, Plot, PlotPoints, Points};
 
 /// Points of the curve kept at most; then every second goes.
 const CURVE_POINTS: usize = 512;
@@ -94,15 +94,16 @@ fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {
 }
 
 fn curve_ui(ui: &mut Ui, curve: &ErrorCurve) {
-    if curve.points.len() < 2 {
-        ui.weak("The error over time appears here once it is known.");
-        return;
-    }
-    let line = Line::new("error", PlotPoints::from(curve.points.clone()))
-        .color(theme::palette(ui.visuals().dark_mode).plot)
-        .width(2.0);
+    let color = theme::palette(ui.visuals().dark_mode).plot;
+    let line = Line::new("error", PlotPoints::from(curve.points.clone())).color(color).width(2.0);
+    // The first measurement is no line yet.
+    let newest = PlotPoints::from(curve.points.last().copied().into_iter().collect::<Vec<_>>());
+    let newest = Points::new("newest error", newest).color(color).radius(3.0);
     let plot = Plot::new("error curve")
         .height(130.0)
+        .show_axes(!curve.points.is_empty())
+        .x_grid_spacer(round_marks)
+        .y_grid_spacer(round_marks)
         .allow_scroll(false)
         .allow_zoom(false)
         .allow_drag(false)
@@ -110,8 +111,25 @@ fn curve_ui(ui: &mut Ui, curve: &ErrorCurve) {
         .x_axis_formatter(|mark, _| format!("{} s", two_digits(10_f64.powf(mark.value))))
         .y_axis_formatter(|mark, _| format!("{} %", two_digits(100.0 * 10_f64.powf(mark.value))))
         .label_formatter(|_| None);
-    plot.show(ui, |plot| plot.line(line));
-    ui.weak("Error estimate over time, both logarithmic");
+    plot.show(ui, |plot| {
+        plot.line(line);
+        plot.points(newest);
+    });
+    let caption = match curve.points.is_empty() {
+        true => "The error over time appears here once it is known",
+        false => "Error estimate over time, both logarithmic",
+    };
+    ui.add(Label::new(RichText::new(caption).weak()).wrap_mode(TextWrapMode::Truncate));
+}
+
+/// Marks at 1, 2 and 5 times the powers of ten, or at those alone where they come thick.
+fn round_marks(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    let digits: &[f64] = if high - low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+    let decades = (low.floor() as i32)..=(high.ceil() as i32);
+    let marks = decades.flat_map(|decade| digits.iter().map(move |digit| f64::from(decade) + digit.log10()));
+    // One size for all, for the plot fades the marks of smaller steps.
+    marks.filter(|value| (low..=high).contains(value)).map(|value| GridMark { value, step_size: 1.0 }).collect()
 }
 
 /// Of one iteration, on the average; and of the preparation before them.

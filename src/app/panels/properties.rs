@@ -1,6 +1,6 @@
 //! The numbers of what is selected.
 
-use super::{lights, materials, objects, settings};
+use super::{lights, materials, objects, settings, textures};
 use crate::app::command::AppCommand;
 use crate::app::document::Document;
 use crate::app::selection::Item;
@@ -32,6 +32,11 @@ pub(crate) fn properties_ui(ui: &mut Ui, document: &Document, commands: &mut Vec
         Item::Light(index) => {
             if let Some(light) = scene.lights.get(index) {
                 lights::light_ui(ui, document, index, light, commands);
+            }
+        }
+        Item::Texture(index) => {
+            if let Some(texture) = scene.textures.get(index) {
+                textures::texture_ui(ui, index, texture, commands);
             }
         }
     }

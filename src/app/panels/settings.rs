@@ -5,7 +5,7 @@ use super::properties::length_speed;
 use crate::app::command::AppCommand;
 use crate::app::document::Document;
 use crate::app::edit::Edit;
-use crate::scene::{Encoding, Film, Render, Texture, ToneCurve};
+use crate::scene::{Film, Render, ToneCurve};
 use egui::{ComboBox, DragValue, Slider, Ui};
 
 /// The eye.
@@ -26,7 +26,7 @@ pub(super) fn camera_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<App
     }
 }
 
-/// The scene's name, the picture, the light transport and the textures.
+/// The scene's name, the picture and the light transport.
 pub(super) fn settings_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
     let (mut name, mut film, mut render) = (scene.name.clone(), scene.film, scene.render);
@@ -51,7 +51,6 @@ pub(super) fn settings_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<A
     if render != scene.render {
         commands.push(AppCommand::Edit(Edit::Render(render)));
     }
-    textures_ui(ui, &scene.textures, commands);
 }
 
 fn size_ui(ui: &mut Ui, film: &mut Film) {
@@ -98,29 +97,4 @@ fn render_ui(ui: &mut Ui, render: &mut Render) {
     ui.label("Background");
     ui.horizontal(|ui| color(ui, "Background", &mut render.background, &Number::positive(0.005)));
     ui.end_row();
-}
-
-fn textures_ui(ui: &mut Ui, textures: &[Texture], commands: &mut Vec<AppCommand>) {
-    egui::CollapsingHeader::new(format!("Textures ({})", textures.len())).id_salt("textures").show(ui, |ui| {
-        for (index, texture) in textures.iter().enumerate() {
-            let mut edited = texture.clone();
-            rows(ui, &format!("texture {index}"), |ui| {
-                text_row(ui, "Name", &mut edited.name, ("texture", index, &texture.name));
-                text_row(ui, "File", &mut edited.file, ("texture file", index, &texture.file));
-                ui.label("");
-                let mut linear = edited.encoding == Encoding::Linear;
-                if ui.checkbox(&mut linear, "linear").on_hover_text("Off: the file holds sRGB colours").changed() {
-                    edited.encoding = if linear { Encoding::Linear } else { Encoding::Srgb };
-                }
-                ui.end_row();
-            });
-            ui.separator();
-            if edited != *texture {
-                commands.push(AppCommand::Edit(Edit::Texture(index, edited)));
-            }
-        }
-        if ui.button("Add texture…").on_hover_text("From a PNG or JPEG file").clicked() {
-            commands.push(AppCommand::AddTexture);
-        }
-    });
 }

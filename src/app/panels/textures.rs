@@ -1,0 +1,27 @@
+//! The file of a texture.
+
+use super::fields::{rows, text_row};
+use crate::app::command::AppCommand;
+use crate::app::edit::Edit;
+use crate::scene::{Encoding, Texture};
+use egui::Ui;
+
+/// The texture's name, file and encoding.
+pub(super) fn texture_ui(ui: &mut Ui, index: usize, texture: &Texture, commands: &mut Vec<AppCommand>) {
+    ui.strong("Texture");
+    let mut edited = texture.clone();
+    rows(ui, "texture", |ui| {
+        text_row(ui, "Name", &mut edited.name, ("texture", index, &texture.name));
+        text_row(ui, "File", &mut edited.file, ("texture file", index, &texture.file));
+        ui.label("Encoding");
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut edited.encoding, Encoding::Srgb, "sRGB").on_hover_text("The file holds colours");
+            ui.radio_value(&mut edited.encoding, Encoding::Linear, "linear").on_hover_text("The file holds numbers");
+        });
+        ui.end_row();
+    });
+    ui.weak("A PNG or JPEG file, relative to the scene file");
+    if edited != *texture {
+        commands.push(AppCommand::Edit(Edit::Texture(index, edited)));
+    }
+}
