@@ -19,6 +19,9 @@ use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 use egui_notify::{Anchor, Toasts};
 use std::sync::Arc;
 
+/// Enough for every section of a scene with ten objects, screen points.
+const OUTLINE_HEIGHT: f32 = 340.0;
+
 /// All that the window shows and remembers. The document changes in `apply` alone.
 pub(crate) struct Editor {
     pub(crate) document: Document,
@@ -128,7 +131,8 @@ impl Editor {
             });
         });
         Panel::right("scene").default_size(360.0).min_size(356.0).show(ui, |ui| {
-            Panel::top("outline").resizable(true).default_size(340.0).min_size(80.0).show(ui, |ui| {
+            let outline = OUTLINE_HEIGHT.min(0.5 * ui.available_height());
+            Panel::top("outline").resizable(true).default_size(outline).min_size(80.0).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
             });
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

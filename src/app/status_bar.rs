@@ -59,5 +59,5 @@ fn pixel_text(editor: &Editor) -> Option<String> {
     let column = u64::from(x) * u64::from(image.width) / u64::from(film.width.max(1));
     let row = u64::from(y) * u64::from(image.height) / u64::from(film.height.max(1));
     let Rgb { x: red, y: green, z: blue } = *image.pixels.get((row * u64::from(image.width) + column) as usize)?;
-    Some(format!("({x}, {y})  {red:.4} {green:.4} {blue:.4}"))
+    Some(format!("pixel ({x}, {y})  RGB {red:.4} {green:.4} {blue:.4}"))
 }

@@ -1,5 +1,6 @@
 //! How far the picture is.
 
+use super::fields::rows;
 use super::plan::plan_ui;
 use super::settings::{exposure_ui, tone_curve_ui};
 use crate::app::command::AppCommand;
@@ -8,11 +9,14 @@ use crate::app::edit::Edit;
 use crate::app::rendering::Rendering;
 use crate::app::theme;
 use crate::engine::{PassSeconds, Stats};
-use egui::{CollapsingHeader, Grid, Label, RichText, TextWrapMode, Ui};
+use egui::{CollapsingHeader, Grid, Ui};
 use egui_plot::{GridInput, GridMark, Line, Plot, PlotPoints, Points};
 
 /// Points of the curve kept at most; then every second goes.
 const CURVE_POINTS: usize = 512;
+
+/// Of the exposure, beside its label and its number, screen points.
+const SLIDER_WIDTH: f32 = 76.0;
 
 /// The error estimate over time, of one generation.
 #[derive(Clone, Debug, Default)]
@@ -65,8 +69,15 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
 fn display_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let mut film = document.scene().film;
     ui.strong("Display");
-    exposure_ui(ui, &mut film);
-    tone_curve_ui(ui, &mut film);
+    rows(ui, "display", |ui| {
+        ui.spacing_mut().slider_width = SLIDER_WIDTH;
+        ui.label("Exposure");
+        exposure_ui(ui, &mut film);
+        ui.end_row();
+        ui.label("Tone curve");
+        tone_curve_ui(ui, &mut film);
+        ui.end_row();
+    });
     if film != document.scene().film {
         commands.push(AppCommand::Edit(Edit::Film(film)));
     }
@@ -85,7 +96,7 @@ fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {
         row("Photons", grouped(stats.photons_emitted));
         row("Photons per second", short(stats.photons_per_second));
         row("Rays", short(stats.rays as f64));
-        row("Radius", if stats.radius > 0.0 { format!("{:.5}", stats.radius) } else { "–".to_owned() });
+        row("Gather radius", if stats.radius > 0.0 { format!("{:.5}", stats.radius) } else { "–".to_owned() });
         row("Error estimate", stats.error_estimate.map_or("not known yet".to_owned(), percent));
         if stats.dropped_samples > 0 {
             row("Dropped samples", grouped(stats.dropped_samples));
@@ -94,6 +105,7 @@ fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {
 }
 
 fn curve_ui(ui: &mut Ui, curve: &ErrorCurve) {
+    let known = !curve.points.is_empty();
     let color = theme::palette(ui.visuals().dark_mode).plot;
     let line = Line::new("error", PlotPoints::from(curve.points.clone())).color(color).width(2.0);
     // The first measurement is no line yet.
@@ -101,7 +113,8 @@ fn curve_ui(ui: &mut Ui, curve: &ErrorCurve) {
     let newest = Points::new("newest error", newest).color(color).radius(3.0);
     let plot = Plot::new("error curve")
         .height(130.0)
-        .show_axes(!curve.points.is_empty())
+        .show_axes(known)
+        .show_grid(known)
         .x_grid_spacer(round_marks)
         .y_grid_spacer(round_marks)
         .allow_scroll(false)
@@ -115,11 +128,7 @@ fn curve_ui(ui: &mut Ui, curve: &ErrorCurve) {
         plot.line(line);
         plot.points(newest);
     });
-    let caption = match curve.points.is_empty() {
-        true => "The error over time appears here once it is known",
-        false => "Error estimate over time, both logarithmic",
-    };
-    ui.add(Label::new(RichText::new(caption).weak()).wrap_mode(TextWrapMode::Truncate));
+    ui.weak(if known { "Error over time, logarithmic" } else { "No error estimate yet" });
 }
 
 /// Marks at 1, 2 and 5 times the powers of ten, or at those alone where they come thick.
@@ -127,9 +136,12 @@ fn round_marks(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let digits: &[f64] = if high - low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
     let decades = (low.floor() as i32)..=(high.ceil() as i32);
+    // One at the very edge would lose half of its label.
+    let inset = 0.08 * (high - low);
     let marks = decades.flat_map(|decade| digits.iter().map(move |digit| f64::from(decade) + digit.log10()));
     // One size for all, for the plot fades the marks of smaller steps.
-    marks.filter(|value| (low..=high).contains(value)).map(|value| GridMark { value, step_size: 1.0 }).collect()
+    let inner = (low + inset)..=(high - inset);
+    marks.filter(|value| inner.contains(value)).map(|value| GridMark { value, step_size: 1.0 }).collect()
 }
 
 /// Of one iteration, on the average; and of the preparation before them.

@@ -211,3 +211,41 @@ fn lights_are_dragged_too() {
     assert_ne!(light.position(scene(&ui)).unwrap(), start);
     assert_eq!(ui.state().document.selection.item, Item::Light(0), "what is dragged is selected");
 }
+
+#[test]
+fn nothing_reacts_under_a_dialog() {
+    let mut ui = open("report");
+    let (before, at) = (scene(&ui).clone(), ui.get_by_label(POINT).rect().center());
+    let tips = |ui: &Ui| ui.query_all_by_label(POINT).count();
+    let alone = tips(&ui);
+    ui.hover_at(at);
+    for _ in 0..30 {
+        ui.step();
+    }
+    assert!(tips(&ui) > alone, "the tip is there");
+    ui.key_press(Key::F1);
+    ui.run_steps(3);
+    assert!(ui.state().dialog.is_some(), "F1 opens the keys");
+    assert_eq!(tips(&ui), alone, "the tip is gone");
+    drag(&mut ui, at, vec2(30.0, 20.0), 4);
+    ui.drop_at(at + vec2(30.0, 20.0));
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), before, "the handle stays");
+}
+
+#[test]
+fn a_drag_leaves_the_panels_as_wide_as_they_are() {
+    let mut ui = open("report");
+    let from = ui.get_by_label(POINT).rect().center();
+    let width = |ui: &Ui| ui.state().canvas.placement.unwrap().canvas.width();
+    let fields = |ui: &Ui| ui.query_all_by_role(Role::SpinButton).map(|field| field.rect().width()).fold(0.0, f32::max);
+    let before = (width(&ui), fields(&ui));
+    for step in 1..=20 {
+        drag(&mut ui, from, vec2(-7.3, 5.9) * step as f32, 1);
+        assert_eq!((width(&ui), fields(&ui)), before, "at {}", world(&ui));
+        ui.drop_at(from + vec2(-7.3, 5.9) * step as f32);
+        ui.run_steps(2);
+        ui.state_mut().document.undo();
+        ui.run_steps(2);
+    }
+}

@@ -41,3 +41,36 @@ fn a_failure_is_a_message_and_the_scene_lives() {
     type_number(&mut ui, "Corner x", "-0.9");
     assert!(ui.state().document.is_dirty(), "it can be edited");
 }
+
+#[test]
+fn a_first_estimate_is_not_called_unknown() {
+    let mut ui = open("cornell");
+    receive(&mut ui, frame(1, true, 8));
+    assert!(ui.query_by_label("No error estimate yet").is_some(), "a draft has none");
+    receive(&mut ui, frame(1, false, 16));
+    assert!(ui.query_by_label("No error estimate yet").is_none(), "one measurement is an estimate");
+}
+
+/// What the colours of the picture are multiplied by.
+fn tint(ui: &Ui) -> egui::Color32 {
+    let texture = ui.state().display.texture().unwrap().id();
+    let of_picture = ui.output().shapes.iter().find_map(|clipped| match &clipped.shape {
+        egui::Shape::Mesh(mesh) if mesh.texture_id == texture => mesh.vertices.first().map(|vertex| vertex.color),
+        _ => None,
+    });
+    of_picture.unwrap()
+}
+
+#[test]
+fn a_picture_of_another_scene_is_dimmed() {
+    let mut ui = open("cornell");
+    receive(&mut ui, frame(1, false, 16));
+    wait_until(&mut ui, "the texture", |ui| ui.state().display.texture().is_some());
+    ui.run_steps(2);
+    assert_eq!(tint(&ui), egui::Color32::WHITE);
+    let place = ui.state().canvas.placement;
+    ui.state_mut().receive(None, Status::Failed("the photon pass stopped".to_owned()));
+    ui.run_steps(2);
+    assert_ne!(tint(&ui), egui::Color32::WHITE, "it is not the scene's");
+    assert_eq!(ui.state().canvas.placement, place, "the message lies over it and moves nothing");
+}

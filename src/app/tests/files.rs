@@ -199,5 +199,93 @@ fn a_picture_that_cannot_be_written_is_a_message() {
     answer_dialogs(&mut ui, Some(folder.path().join("no such folder/picture.exr")));
     receive(&mut ui, frame(1, false, 16));
     press(&mut ui, Key::E);
-    wait_until(&mut ui, "the message", |ui| matches!(ui.state().dialog, Some(Dialog::Error(..))));
+    wait_until(&mut ui, "the path field", |ui| matches!(ui.state().dialog, Some(Dialog::Path(..))));
+    ui.run_steps(2);
+    assert!(ui.query_by_label_contains("no such folder/picture.exr: cannot be written").is_some(), "why");
+    ui.key_press(Key::Escape);
+    ui.run_steps(3);
+    assert_eq!(ui.state().dialog, None, "Esc gives it up");
+}
+
+/// Asks for a path to be typed.
+fn path_field(ui: &mut Ui, key: Key) {
+    answer_dialogs(ui, None);
+    press(ui, key);
+    wait_until(ui, "the path field", |ui| matches!(ui.state().dialog, Some(Dialog::Path(..))));
+    ui.run_steps(2);
+}
+
+#[test]
+fn a_typed_path_that_does_not_serve_can_be_corrected() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    path_field(&mut ui, Key::S);
+    let wrong = folder.path().join("no such folder/mine.toml");
+    type_path(&mut ui, &wrong);
+    ui.key_press(Key::Enter);
+    ui.run_steps(3);
+    assert!(ui.query_by_label_contains("cannot be written").is_some(), "why");
+    let text = ui.get_by_role_and_label(Role::TextInput, "Path").value();
+    assert_eq!(text, Some(wrong.display().to_string()), "what was typed is still there");
+    assert!(ui.get_by_role_and_label(Role::TextInput, "Path").is_focused(), "and can be typed at once");
+    let right = folder.path().join("mine.toml");
+    type_path(&mut ui, &right);
+    ui.key_press(Key::Enter);
+    ui.run_steps(3);
+    assert_eq!(ui.state().dialog, None);
+    assert!(SceneFile::open(&right).is_ok(), "Enter is enough");
+}
+
+#[test]
+fn a_format_that_cannot_be_written_is_refused() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    receive(&mut ui, frame(1, false, 16));
+    path_field(&mut ui, Key::E);
+    type_path(&mut ui, &folder.path().join("x.bmp"));
+    ui.key_press(Key::Enter);
+    ui.run_steps(3);
+    assert!(ui.query_by_label_contains("A .bmp file cannot be written").is_some(), "it says so");
+    assert!(ui.query_by_label_contains(".png").is_some(), "and what can be");
+    assert!(ui.get_by_role_and_label(Role::TextInput, "Path").is_focused(), "and stays open to be corrected");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written under another name");
+}
+
+#[test]
+fn the_selected_surface_is_exported_with_the_chosen_steps() {
+    let (mut ui, folder) = (open("report"), folder());
+    let path = folder.path().join("sheet.obj");
+    answer_dialogs(&mut ui, Some(path.clone()));
+    choose_from_menu(&mut ui, &["File", "Export surface… Ctrl+Shift+E"]);
+    type_number(&mut ui, "Quads along each side of a patch", "3");
+    wait_until(&mut ui, "the mesh", |_| path.exists());
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.starts_with("o sheet\n"), "{}", &text[..20]);
+    assert_eq!(text.lines().filter(|line| line.starts_with("f ")).count(), 9, "3 x 3 quads");
+}
+
+#[test]
+fn a_scene_without_patches_has_no_surface_to_export() {
+    let mut ui = open("cornell");
+    ui.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::E);
+    ui.run_steps(3);
+    assert_eq!(ui.state().dialog, None);
+}
+
+#[test]
+fn a_saved_example_has_its_files_beside_it() {
+    let (mut ui, folder) = (open("teapot"), folder());
+    let path = folder.path().join("mine.toml");
+    answer_dialogs(&mut ui, Some(path.clone()));
+    press(&mut ui, Key::S);
+    wait_until(&mut ui, "the save", |_| path.exists());
+    assert_eq!(SceneFile::open(&path).unwrap().scene, *scene(&ui), "it opens again");
+}
+
+#[test]
+fn enter_closes_a_message() {
+    let mut ui = open("cornell");
+    ui.state_mut().dialog = Some(Dialog::error("A title".into(), "A text".into()));
+    ui.run_steps(2);
+    ui.key_press(Key::Enter);
+    ui.run_steps(2);
+    assert_eq!(ui.state().dialog, None);
 }

@@ -68,3 +68,13 @@ fn panels_can_be_hidden() {
     ui.run_steps(3);
     assert!(ui.state().canvas.placement.unwrap().canvas.width() > narrow + 300.0, "the picture has the room");
 }
+
+#[test]
+fn the_keys_fit_into_a_small_window() {
+    let mut ui = open("cornell");
+    ui.set_size(egui::vec2(640.0, 400.0));
+    ui.key_press(Key::F1);
+    ui.run_steps(4);
+    let close = ui.get_by_role_and_label(Role::Button, "Close").rect();
+    assert!(close.max.y < 400.0, "the button is in sight: {close}");
+}

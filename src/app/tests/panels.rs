@@ -186,3 +186,42 @@ fn a_texture_can_replace_a_colour() {
     let model = &scene(&ui).materials[plain].model;
     assert!(matches!(model, MaterialModel::Diffuse { albedo: Color::Texture(_) }), "{model:?}");
 }
+
+#[test]
+fn a_number_that_is_shown_short_keeps_all_its_digits() {
+    let mut ui = open("report");
+    let ball = place(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    select(&mut ui, Item::Object(ball));
+    type_number(&mut ui, "Radius", "0.123456789012");
+    let field = |ui: &Ui| ui.get_by_role_and_label(Role::SpinButton, "Radius").value();
+    assert_eq!(field(&ui).as_deref(), Some("0.1235"), "short");
+    ui.get_by_role_and_label(Role::SpinButton, "Radius").click();
+    ui.run_steps(2);
+    ui.key_press(Key::Enter);
+    ui.run_steps(2);
+    let Shape::Sphere { radius, .. } = scene(&ui).objects[ball].shape else { panic!("a sphere") };
+    assert_eq!(radius, 0.123_456_789_012, "looking at it changes nothing");
+}
+
+#[test]
+fn all_parts_of_a_scene_are_in_sight() {
+    let ui = open("report");
+    for part in ["Objects (8)", "Lights (1)", "Materials (8)", "Textures (6)"] {
+        let header = ui.get_by_label(part).rect();
+        let properties = ui.get_by_label_contains("Object: bezier").rect();
+        assert!(header.max.y < properties.min.y, "{part} is below the fold: {header} {properties}");
+    }
+}
+
+#[test]
+fn a_texture_has_a_panel_and_stays_while_it_is_used() {
+    let mut ui = open("report");
+    ui.get_by_label("Textures (6)").click();
+    ui.run_steps(20);
+    select(&mut ui, Item::Texture(0));
+    assert!(ui.query_by_role_and_label(Role::TextInput, "File").is_some(), "its file");
+    let before = scene(&ui).clone();
+    ui.key_press(Key::Delete);
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), before, "a material still needs it");
+}
