@@ -20,7 +20,7 @@ use egui_notify::{Anchor, Toasts};
 use std::sync::Arc;
 
 /// Enough for every section of a scene with ten objects, screen points.
-const OUTLINE_HEIGHT: f32 = 340.0;
+const OUTLINE_HEIGHT: f32 = 390.0;
 
 /// All that the window shows and remembers. The document changes in `apply` alone.
 pub(crate) struct Editor {

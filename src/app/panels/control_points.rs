@@ -42,7 +42,7 @@ fn patch_ui(ui: &mut Ui, document: &Document, count: usize, commands: &mut Vec<A
         if ui.add_enabled(patch + 1 < count, Button::new(">")).on_hover_text("Next patch").clicked() {
             patch += 1;
         }
-        ui.weak(format!("of {count}, from 0"));
+        ui.weak(format!("from 0 to {}", count - 1));
     });
     if patch != document.selection.patch {
         commands.push(AppCommand::Select(Selection { patch, ..document.selection.clone() }));

@@ -135,7 +135,9 @@ pub(super) fn color(ui: &mut Ui, name: &str, value: &mut Rgb, spec: &Number) {
     if response.on_hover_text("Pick a colour (linear RGB)").changed() {
         *value = Rgb::from_array(picked);
     }
+    let colors = theme::palette(ui.visuals().dark_mode).axes;
     for (k, channel) in ["red", "green", "blue"].into_iter().enumerate() {
+        ui.label(RichText::new(&channel[..1]).color(colors[k]));
         let mut component = decimal(value[k]);
         number(ui, &format!("{name} {channel}"), &mut component, spec);
         if component as f32 != value[k] {

@@ -87,7 +87,7 @@ fn section_ui<'a>(
 
 fn row_ui(ui: &mut Ui, document: &Document, item: Item, name: &str, kind: &str, commands: &mut Vec<AppCommand>) {
     let selected = document.selection.item == item;
-    let button = Button::selectable(selected, name).right_text(egui::RichText::new(kind).weak().small()).truncate();
+    let button = Button::selectable(selected, name).right_text(egui::RichText::new(kind).small()).truncate();
     let response = ui.add_sized([ui.available_width(), ui.spacing().interact_size.y], button);
     if response.clicked() || response.secondary_clicked() {
         commands.push(AppCommand::Select(Selection::of(item)));
