@@ -130,7 +130,7 @@ impl Editor {
                 progress_ui(ui, &self.document, &self.rendering, commands);
             });
         });
-        Panel::right("scene").default_size(360.0).min_size(356.0).show(ui, |ui| {
+        Panel::right("scene").default_size(372.0).min_size(370.0).show(ui, |ui| {
             let outline = OUTLINE_HEIGHT.min(0.5 * ui.available_height());
             Panel::top("outline").resizable(true).default_size(outline).min_size(80.0).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));

@@ -131,10 +131,14 @@ fn curve_ui(ui: &mut Ui, curve: &ErrorCurve) {
     ui.weak(if known { "Error over time, logarithmic" } else { "No error estimate yet" });
 }
 
-/// Marks at 1, 2 and 5 times the powers of ten, or at those alone where they come thick.
+/// Marks at round numbers, of which there are fewer the more powers of ten the axis holds.
 fn round_marks(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
-    let digits: &[f64] = if high - low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+    let digits: &[f64] = match high - low {
+        span if span > 2.5 => &[1.0],
+        span if span > 0.7 => &[1.0, 2.0, 5.0],
+        _ => &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0],
+    };
     let decades = (low.floor() as i32)..=(high.ceil() as i32);
     // One at the very edge would lose half of its label.
     let inset = 0.08 * (high - low);
