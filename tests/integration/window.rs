@@ -242,4 +242,5 @@ fn explains_itself(output: &Output) {
     assert!(message.contains("apt install"), "the package: {message}");
     assert!(message.contains("patchlight render"), "what works at once: {message}");
     assert!(!message.contains("panicked"), "no panic: {message}");
+    assert!(!message.contains(".rs:"), "no line of a source file: {message}");
 }
