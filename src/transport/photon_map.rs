@@ -1,7 +1,8 @@
 //! The photon map: a kd-tree with spatial-median splits over photons in Morton order.
 //!
 //! Sorting the photons by Morton code is the whole construction: every node is a range of the sorted array, split
-//! where the highest differing bit of the codes changes. Leaves keep their photons in columns, side by side.
+//! where the highest differing bit of the codes changes. Leaves keep their photons in columns, side by side. Every node
+//! keeps the moments of its photons: the kernel is quadratic, so that they give the sum over a whole node at once.
 
 use super::morton::{self, Coded};
 use super::photon::{PackedDirection, Photon};
@@ -23,12 +24,77 @@ struct Node {
     count: u32,
     /// The node that follows when this one's descendants are left out.
     skip: u32,
+    /// The least tag of its photons.
+    least_tag: u32,
+    /// The greatest.
+    greatest_tag: u32,
+}
+
+impl Node {
+    /// Whether every photon of the node is in the disc and has the right tag.
+    #[inline(always)]
+    fn is_inside(&self, query: &Query) -> bool {
+        let farthest = (query.position - self.min).abs().max((query.position - self.max).abs());
+        if farthest.length_squared() > query.radius * query.radius
+            || self.least_tag < query.tag_start
+            || self.greatest_tag - query.tag_start >= query.tag_span
+        {
+            return false;
+        }
+        let (center, half) = (0.5 * (self.min + self.max), 0.5 * (self.max - self.min));
+        let height = (center - query.position).dot(query.normal).abs() + half.dot(query.normal.abs());
+        height <= Query::SLAB * query.radius
+    }
+}
+
+/// Sums over the photons of a node, `d` the offset from the middle of its box.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    /// Of the flux.
+    flux: Rgb,
+    /// Of `d` times the flux, by channel.
+    first: [Vec3; 3],
+    /// Of `|d|^2` times the flux.
+    second: Rgb,
+}
+
+impl Moments {
+    fn add(&mut self, offset: Vec3, flux: Rgb) {
+        self.flux += flux;
+        for (first, flux) in self.first.iter_mut().zip(flux.to_array()) {
+            *first += offset * flux;
+        }
+        self.second += flux * offset.length_squared();
+    }
+
+    /// Adds those of another node, whose middle is at this offset.
+    fn add_shifted(&mut self, other: &Self, offset: Vec3) {
+        self.flux += other.flux;
+        for ((first, other), flux) in self.first.iter_mut().zip(&other.first).zip(other.flux.to_array()) {
+            *first += *other + offset * flux;
+        }
+        self.second += other.second + 2.0 * other.along(offset) + other.flux * offset.length_squared();
+    }
+
+    /// Sum of `d . offset` times the flux.
+    #[inline(always)]
+    fn along(&self, offset: Vec3) -> Rgb {
+        Rgb::from_array(self.first.map(|first| first.dot(offset)))
+    }
+
+    /// Sum of `1 - |d + offset|^2 / r^2` times the flux.
+    #[inline(always)]
+    fn sum(&self, offset: Vec3, inverse_radius_sq: f32) -> Rgb {
+        let squares = self.second + 2.0 * self.along(offset) + self.flux * offset.length_squared();
+        self.flux - squares * inverse_radius_sq
+    }
 }
 
 /// Photons for queries by place.
 #[derive(Clone, Debug, Default)]
 pub struct PhotonMap {
     nodes: Vec<Node>,
+    moments: Vec<Moments>,
     x: Vec<f32>,
     y: Vec<f32>,
     z: Vec<f32>,
@@ -63,15 +129,16 @@ impl Query {
 impl PhotonMap {
     /// The map of these photons. Depends on their order only among photons in the same place.
     pub fn build(photons: &[Photon]) -> Self {
-        let mut tree = Tree { photons, order: morton::order(photons), nodes: Vec::with_capacity(photons.len() / 4) };
+        let mut tree = Tree { photons, order: morton::order(photons), nodes: Vec::new(), moments: Vec::new() };
         if !photons.is_empty() {
             tree.build_node(0, photons.len());
         }
-        let Tree { order, nodes, .. } = tree;
+        let Tree { order, nodes, moments, .. } = tree;
         let column = |f: fn(&Photon) -> f32| in_order(photons, &order, f);
         let bits = |f: fn(&Photon) -> u32| in_order(photons, &order, f);
         Self {
             nodes,
+            moments,
             x: column(|p| p.position.x),
             y: column(|p| p.position.y),
             z: column(|p| p.position.z),
@@ -97,14 +164,23 @@ impl PhotonMap {
     #[inline(always)]
     pub(super) fn sum_flux(&self, query: &Query) -> Rgb {
         let mut sums = [f32x8::ZERO; 3];
+        let mut whole_nodes = Rgb::ZERO;
         let wide = WideQuery::new(query);
-        let mut leaves = self.leaves(query);
-        while let Some((start, end)) = leaves.next() {
-            for first in (start..end).step_by(LANES) {
-                self.accumulate(&wide, first, end, &mut sums);
+        let inverse_radius_sq = 1.0 / (query.radius * query.radius);
+        let mut nodes = self.nodes_near(query);
+        while let Some((index, node)) = nodes.next() {
+            if node.is_inside(query) {
+                let center = 0.5 * (node.min + node.max);
+                whole_nodes += self.moments[index].sum(center - query.position, inverse_radius_sq);
+                nodes.index = node.skip as usize;
+            } else {
+                let (start, end) = (node.start as usize, (node.start + node.count) as usize);
+                for first in (start..end).step_by(LANES) {
+                    self.accumulate(&wide, first, end, &mut sums);
+                }
             }
         }
-        Rgb::from_array(sums.map(|lanes| lanes.reduce_add()))
+        whole_nodes + Rgb::from_array(sums.map(|lanes| lanes.reduce_add()))
     }
 
     /// Adds up to [`LANES`] photons, those before `end`, to as many partial sums; without branches.
@@ -129,9 +205,9 @@ impl PhotonMap {
     /// Calls `photon(kernel weight, flux, direction to where the photon came from)` for each photon of the disc.
     pub(super) fn for_each(&self, query: &Query, mut photon: impl FnMut(f32, Rgb, Vec3)) {
         let inverse = 1.0 / (query.radius * query.radius);
-        let mut leaves = self.leaves(query);
-        while let Some((start, end)) = leaves.next() {
-            for k in start..end {
+        let mut nodes = self.nodes_near(query);
+        while let Some((_, node)) = nodes.next() {
+            for k in node.start as usize..(node.start + node.count) as usize {
                 let position = Vec3::new(self.x[k], self.y[k], self.z[k]);
                 let weight = kernel_weight(query, inverse, position, self.tag[k]);
                 if weight > 0.0 {
@@ -142,38 +218,37 @@ impl PhotonMap {
         }
     }
 
-    fn leaves<'a>(&'a self, query: &Query) -> Leaves<'a> {
-        Leaves { nodes: &self.nodes, index: 0, position: query.position, radius_sq: query.radius * query.radius }
+    fn nodes_near<'a>(&'a self, query: &Query) -> NodesNear<'a> {
+        NodesNear { nodes: &self.nodes, index: 0, position: query.position, radius_sq: query.radius * query.radius }
     }
 
     /// Bytes on the heap.
     pub fn memory_bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>() + self.len() * 8 * size_of::<f32>()
+        self.nodes.capacity() * size_of::<Node>()
+            + self.moments.capacity() * size_of::<Moments>()
+            + self.len() * 8 * size_of::<f32>()
     }
 }
 
-/// Leaves whose box a ball meets.
-struct Leaves<'a> {
+/// Nodes whose box a ball meets, inner ones before their children; inner ones hold no photons of their own.
+struct NodesNear<'a> {
     nodes: &'a [Node],
     index: usize,
     position: Vec3,
     radius_sq: f32,
 }
 
-impl Leaves<'_> {
-    /// The range of photons of the next leaf.
+impl<'a> NodesNear<'a> {
+    /// The next node and its index.
     #[inline(always)]
-    fn next(&mut self) -> Option<(usize, usize)> {
+    fn next(&mut self) -> Option<(usize, &'a Node)> {
         while let Some(node) = self.nodes.get(self.index) {
             let outside = (node.min - self.position).max(self.position - node.max).max(Vec3::ZERO);
-            if outside.length_squared() >= self.radius_sq {
-                self.index = node.skip as usize;
-                continue;
+            if outside.length_squared() < self.radius_sq {
+                self.index += 1;
+                return Some((self.index - 1, node));
             }
-            self.index += 1;
-            if node.count > 0 {
-                return Some((node.start as usize, (node.start + node.count) as usize));
-            }
+            self.index = node.skip as usize;
         }
         None
     }
@@ -233,24 +308,55 @@ struct Tree<'a> {
     photons: &'a [Photon],
     order: Vec<Coded>,
     nodes: Vec<Node>,
+    moments: Vec<Moments>,
 }
 
 impl Tree<'_> {
-    /// Appends the subtree over a range and returns its box.
-    fn build_node(&mut self, start: usize, end: usize) -> (Vec3, Vec3) {
+    /// Appends the subtree over a range; returns its index.
+    fn build_node(&mut self, start: usize, end: usize) -> usize {
         let index = self.nodes.len();
-        self.nodes.push(Node { min: Vec3::ZERO, max: Vec3::ZERO, start: start as u32, count: 0, skip: 0 });
-        let (min, max) = if let Some(middle) = self.split(start, end) {
-            let (left, right) = (self.build_node(start, middle), self.build_node(middle, end));
-            (left.0.min(right.0), left.1.max(right.1))
+        let unknown =
+            Node { min: Vec3::ZERO, max: Vec3::ZERO, start: 0, count: 0, skip: 0, least_tag: 0, greatest_tag: 0 };
+        self.nodes.push(unknown);
+        self.moments.push(Moments::default());
+        if let Some(middle) = self.split(start, end) {
+            let children = [self.build_node(start, middle), self.build_node(middle, end)];
+            self.join(index, children);
         } else {
-            self.nodes[index].count = (end - start) as u32;
-            self.bounds(start, end)
+            self.finish_leaf(index, start, end);
+        }
+        self.nodes[index].skip = self.nodes.len() as u32;
+        index
+    }
+
+    fn join(&mut self, index: usize, children: [usize; 2]) {
+        let [a, b] = children.map(|child| self.nodes[child]);
+        let (min, max) = (a.min.min(b.min), a.max.max(b.max));
+        self.nodes[index] = Node {
+            min,
+            max,
+            least_tag: a.least_tag.min(b.least_tag),
+            greatest_tag: a.greatest_tag.max(b.greatest_tag),
+            ..self.nodes[index]
         };
-        let skip = self.nodes.len() as u32;
-        let node = &mut self.nodes[index];
-        (node.min, node.max, node.skip) = (min, max, skip);
-        (min, max)
+        let mut moments = Moments::default();
+        for (node, child) in [a, b].iter().zip(children) {
+            moments.add_shifted(&self.moments[child], 0.5 * (node.min + node.max) - 0.5 * (min + max));
+        }
+        self.moments[index] = moments;
+    }
+
+    fn finish_leaf(&mut self, index: usize, start: usize, end: usize) {
+        let photons = || self.order[start..end].iter().map(|item| &self.photons[item.index as usize]);
+        let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY, u32::MAX, 0);
+        let (min, max, least_tag, greatest_tag) = photons().fold(empty, |(min, max, least, greatest), p| {
+            (min.min(p.position), max.max(p.position), least.min(p.tag), greatest.max(p.tag))
+        });
+        let mut moments = Moments::default();
+        photons().for_each(|p| moments.add(p.position - 0.5 * (min + max), p.flux));
+        let (start, count) = (start as u32, (end - start) as u32);
+        self.nodes[index] = Node { min, max, start, count, least_tag, greatest_tag, ..self.nodes[index] };
+        self.moments[index] = moments;
     }
 
     /// Where the highest differing bit of the codes changes; `None` for a leaf.
@@ -265,11 +371,6 @@ impl Tree<'_> {
         }
         let bit = differing(&self.order).checked_ilog2()?;
         Some(start + self.order[start..end].partition_point(|item| item.code >> bit & 1 == 0))
-    }
-
-    fn bounds(&self, start: usize, end: usize) -> (Vec3, Vec3) {
-        let positions = self.order[start..end].iter().map(|item| self.photons[item.index as usize].position);
-        positions.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
     }
 }
 

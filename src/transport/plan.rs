@@ -87,7 +87,7 @@ impl Plan {
             caustic_radius: 2.0,
             global_radius: 12.0,
             focused_radius: 6.0,
-            largest_radius: 0.05,
+            largest_radius: 0.07,
             notes: notes.0,
             is_draft: false,
         }

@@ -187,7 +187,7 @@ fn a_texture_that_is_no_image_is_a_scene_mistake() {
 #[test]
 fn command_line_mistakes_end_with_2() {
     let dir = folder();
-    let mistakes: [(&[&str], &str); 10] = [
+    let mistakes: [(&[&str], &str); 11] = [
         (&["render", "ball.toml"], "--output"),
         (&["render", "ball.toml", "-o", "a.jpg"], "ends in .png or .exr"),
         (&["render", "ball.toml", "-o", "no/a.png"], "there is no folder no"),
