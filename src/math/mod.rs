@@ -6,6 +6,7 @@
 mod aabb;
 pub mod float;
 mod frame;
+pub mod lanes;
 pub mod octahedral;
 mod ray;
 pub mod sobol;
@@ -13,6 +14,7 @@ pub mod warp;
 
 pub use aabb::Aabb;
 pub use frame::Frame;
+pub use lanes::{LANES, Lanes};
 pub use ray::Ray;
 pub use sobol::{Sampler, Stream};
 

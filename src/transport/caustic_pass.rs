@@ -7,7 +7,7 @@ use super::bsdf;
 use super::counters::Counters;
 use super::emission::{self, Emission};
 use super::medium::Media;
-use super::photon::{PackedDirection, Photon, tag};
+use super::photon::{Photon, tag};
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::{CausticPlan, Plan};
 use super::{Cancel, blocks};
@@ -202,7 +202,7 @@ impl<'a> Walk<'a> {
             self.batch.photons.push(Photon {
                 position: (point.position - self.world.center).as_vec3(),
                 flux: branch.flux,
-                wi: PackedDirection::pack(wi.as_vec3()),
+                wi: wi.as_vec3(),
                 tag: tag(object, point.front, branch.bounces),
             });
             self.batch.counters.photons_stored += 1;

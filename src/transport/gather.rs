@@ -5,11 +5,14 @@ use super::bsdf;
 use super::camera_pass::VisiblePoint;
 use super::counters::Counters;
 use super::kernel;
-use super::photon_map::{PhotonMap, Query};
+use super::photon_map::{PhotonMap, Query, Stack};
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::Plan;
 use crate::geometry::Primitive;
-use crate::math::Rgb;
+#[cfg(target_arch = "x86_64")]
+use crate::math::lanes::Avx2;
+use crate::math::lanes::Portable;
+use crate::math::{Lanes, Rgb};
 use crate::world::{Lobe, SharedEdges, Surface, World};
 use glam::{DVec2, DVec3};
 use multiversion::multiversion;
@@ -61,25 +64,30 @@ struct Gatherer<'a> {
 
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 fn gather_block(gatherer: &Gatherer, points: &[VisiblePoint], counters: &mut Counters) -> Vec<Rgb> {
-    points.iter().map(|point| gatherer.at(point, counters)).collect()
+    let mut stack = Stack::new();
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = Avx2::try_new() {
+        return points.iter().map(|point| gatherer.at(avx2, point, &mut stack, counters)).collect();
+    }
+    points.iter().map(|point| gatherer.at(Portable, point, &mut stack, counters)).collect()
 }
 
 impl Gatherer<'_> {
     #[inline(always)]
-    fn at(&self, point: &VisiblePoint, counters: &mut Counters) -> Rgb {
+    fn at<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack, counters: &mut Counters) -> Rgb {
         let mut radiance = Rgb::ZERO;
         let caustics_here = !point.seen_directly || self.plan.gathers_visible_caustics(self.iteration);
         if caustics_here && !self.maps.caustic.is_empty() {
             counters.caustic_gathers += 1;
-            radiance += self.estimate(&self.maps.caustic, point, self.plan.caustic_radius, true);
+            radiance += self.estimate(l, &self.maps.caustic, stack, point, self.plan.caustic_radius, true);
         }
         if !self.maps.global.is_empty() && point.scattering.albedo != Rgb::ZERO {
             counters.global_gathers += 1;
-            radiance += self.estimate(&self.maps.global, point, self.plan.global_radius, false);
+            radiance += self.estimate(l, &self.maps.global, stack, point, self.plan.global_radius, false);
         }
         if !self.maps.focused.is_empty() && point.scattering.albedo != Rgb::ZERO {
             counters.global_gathers += 1;
-            radiance += self.estimate(&self.maps.focused, point, self.plan.focused_radius, false);
+            radiance += self.estimate(l, &self.maps.focused, stack, point, self.plan.focused_radius, false);
         }
         if radiance.is_finite() {
             radiance
@@ -92,7 +100,15 @@ impl Gatherer<'_> {
     /// The density estimate of reflected radiance: `sum f flux K / integral of K` over the disc on the surface. Light
     /// in a Phong lobe counts for caustic photons only; the camera's own paths find the rest of it.
     #[inline(always)]
-    fn estimate(&self, map: &PhotonMap, point: &VisiblePoint, pixels: f64, with_lobe: bool) -> Rgb {
+    fn estimate<L: Lanes>(
+        &self,
+        l: L,
+        map: &PhotonMap,
+        stack: &mut Stack,
+        point: &VisiblePoint,
+        pixels: f64,
+        with_lobe: bool,
+    ) -> Rgb {
         let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
         let limit =
             if let Primitive::Sphere(sphere) = primitive { MAX_PART_OF_SPHERE * sphere.radius } else { f64::MAX };
@@ -106,11 +122,14 @@ impl Gatherer<'_> {
             tag_start: point.tag,
             tag_span: point.photon_bounces + 1,
         };
-        let has_lobe = with_lobe && matches!(point.scattering.lobe, Lobe::Phong { .. });
-        let reflected = if has_lobe || point.n_shade != point.n_side {
-            directional_sum(map, &query, point, has_lobe)
+        let diffuse = bsdf::eval_diffuse(&point.scattering);
+        let reflected = if with_lobe && matches!(point.scattering.lobe, Lobe::Phong { .. }) {
+            glossy_sum(l, map, &query, point, stack)
+        } else if point.n_shade != point.n_side {
+            // The flux of photons is counted on the surface as it is, and reflected as it is bumped.
+            map.sum_tilted_flux(l, &query, point.n_shade, MAX_SHADING_FACTOR as f32, stack) * diffuse
         } else {
-            map.sum_flux(&query) * bsdf::eval_diffuse(&point.scattering)
+            map.sum_flux(l, &query, stack) * diffuse
         };
         if reflected == Rgb::ZERO {
             return Rgb::ZERO;
@@ -121,19 +140,18 @@ impl Gatherer<'_> {
     }
 }
 
-/// Sum over the disc of `f flux K |cos to the shading normal| / |cos to the surface|`: the flux of photons is counted
-/// on the surface as it is, and reflected as it is bumped.
-fn directional_sum(map: &PhotonMap, query: &Query, point: &VisiblePoint, with_lobe: bool) -> Rgb {
+/// Sum over the disc of `f flux K |cos to the shading normal| / |cos to the surface|`, `f` with its Phong lobe.
+#[inline(always)]
+fn glossy_sum<L: Lanes>(l: L, map: &PhotonMap, query: &Query, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
     let diffuse = bsdf::eval_diffuse(&point.scattering);
     let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
     let mut sum = Rgb::ZERO;
-    map.for_each(query, |weight, flux, wi| {
+    map.for_each(l, query, stack, |weight, flux, wi| {
         let (cos_shade, cos_side) = (wi.dot(point.n_shade), wi.dot(point.n_side));
         if cos_shade <= 0.0 || cos_side <= 0.0 {
             return;
         }
-        let glossy =
-            if with_lobe { bsdf::eval_glossy(&point.scattering, n_shade, wo, wi.as_dvec3()) } else { Rgb::ZERO };
+        let glossy = bsdf::eval_glossy(&point.scattering, n_shade, wo, wi.as_dvec3());
         sum += weight * flux * (diffuse + glossy) * (cos_shade / cos_side).min(MAX_SHADING_FACTOR as f32);
     });
     sum

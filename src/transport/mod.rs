@@ -37,7 +37,7 @@ pub use caustic_pass::{CausticBatch, Splat, caustic_photon_pass};
 pub use counters::Counters;
 pub use gather::{Maps, gather};
 pub use guide::Guide;
-pub use photon::{PackedDirection, Photon};
+pub use photon::Photon;
 pub use photon_map::{PhotonMap, Query};
 pub use photon_pass::{GlobalBatch, global_photon_pass};
 pub use plan::{CausticPlan, Plan, PlanNote};

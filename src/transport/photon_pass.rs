@@ -5,7 +5,7 @@ use super::bsdf;
 use super::counters::Counters;
 use super::emission::{self, Emission};
 use super::medium::Media;
-use super::photon::{PackedDirection, Photon, tag};
+use super::photon::{Photon, tag};
 use super::plan::Plan;
 use super::{Cancel, blocks};
 use crate::math::{Frame, Ray, Rgb, Sampler, Stream, warp};
@@ -108,7 +108,7 @@ impl Walk<'_> {
             photons.push(Photon {
                 position: (point.position - self.world.center).as_vec3(),
                 flux: flight.flux,
-                wi: PackedDirection::pack(wi.as_vec3()),
+                wi: wi.as_vec3(),
                 tag: tag(object, point.front, flight.bounces),
             });
             self.batch.counters.photons_stored += 1;

@@ -1,0 +1,232 @@
+//! Eight numbers at a time: the vectors of AVX2 where the processor has them, found out at run time, else whatever
+//! the target always has.
+
+use wide::{f32x8, u32x8};
+
+/// Numbers in a vector.
+pub const LANES: usize = 8;
+
+/// A set of vector instructions. Comparisons give masks: all bits of a lane where it holds, else none.
+pub trait Lanes: Copy {
+    /// [`LANES`] numbers or masks.
+    type Vector: Copy;
+
+    /// The same number in every lane.
+    fn splat(self, x: f32) -> Self::Vector;
+    /// Numbers from memory.
+    fn load(self, x: &[f32; LANES]) -> Self::Vector;
+    /// Numbers to memory.
+    fn store(self, v: Self::Vector) -> [f32; LANES];
+    /// `a + b`.
+    fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// `a - b`.
+    fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// `a b`.
+    fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// `a / b`.
+    fn div(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// `a b + c`.
+    fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector;
+    /// The greater one.
+    fn max(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// The lesser one.
+    fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// Without its sign.
+    fn abs(self, a: Self::Vector) -> Self::Vector;
+    /// Mask of `a < b`.
+    fn less(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// Mask of `first <= x < first + count`, of unsigned integers; `count` is not 0.
+    fn in_range(self, x: &[u32; LANES], first: u32, count: u32) -> Self::Vector;
+    /// Both masks, or a number where the mask holds and else 0.
+    fn and(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// A bit for each lane, the first the lowest.
+    fn bits(self, mask: Self::Vector) -> u32;
+
+    /// The sum of the lanes.
+    #[inline(always)]
+    fn sum(self, v: Self::Vector) -> f32 {
+        let [a, b, c, d, e, f, g, h] = self.store(v);
+        ((a + e) + (c + g)) + ((b + f) + (d + h))
+    }
+
+    /// `ax bx + ay by + az bz`.
+    #[inline(always)]
+    fn dot(self, a: [Self::Vector; 3], b: [Self::Vector; 3]) -> Self::Vector {
+        self.mul_add(a[0], b[0], self.mul_add(a[1], b[1], self.mul(a[2], b[2])))
+    }
+}
+
+/// What the target always has.
+#[derive(Clone, Copy, Debug)]
+pub struct Portable;
+
+impl Lanes for Portable {
+    type Vector = f32x8;
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> f32x8 {
+        f32x8::splat(x)
+    }
+    #[inline(always)]
+    fn load(self, x: &[f32; LANES]) -> f32x8 {
+        f32x8::new(*x)
+    }
+    #[inline(always)]
+    fn store(self, v: f32x8) -> [f32; LANES] {
+        v.to_array()
+    }
+    #[inline(always)]
+    fn add(self, a: f32x8, b: f32x8) -> f32x8 {
+        a + b
+    }
+    #[inline(always)]
+    fn sub(self, a: f32x8, b: f32x8) -> f32x8 {
+        a - b
+    }
+    #[inline(always)]
+    fn mul(self, a: f32x8, b: f32x8) -> f32x8 {
+        a * b
+    }
+    #[inline(always)]
+    fn div(self, a: f32x8, b: f32x8) -> f32x8 {
+        a / b
+    }
+    #[inline(always)]
+    fn mul_add(self, a: f32x8, b: f32x8, c: f32x8) -> f32x8 {
+        a * b + c
+    }
+    #[inline(always)]
+    fn max(self, a: f32x8, b: f32x8) -> f32x8 {
+        a.fast_max(b)
+    }
+    #[inline(always)]
+    fn min(self, a: f32x8, b: f32x8) -> f32x8 {
+        a.fast_min(b)
+    }
+    #[inline(always)]
+    fn abs(self, a: f32x8) -> f32x8 {
+        a.abs()
+    }
+    #[inline(always)]
+    fn less(self, a: f32x8, b: f32x8) -> f32x8 {
+        a.simd_lt(b)
+    }
+    #[inline(always)]
+    fn in_range(self, x: &[u32; LANES], first: u32, count: u32) -> f32x8 {
+        f32x8::from_bits((u32x8::new(*x) - u32x8::splat(first)).simd_le(u32x8::splat(count - 1)))
+    }
+    #[inline(always)]
+    fn and(self, a: f32x8, b: f32x8) -> f32x8 {
+        a & b
+    }
+    #[inline(always)]
+    fn bits(self, mask: f32x8) -> u32 {
+        mask.to_bitmask()
+    }
+}
+
+/// AVX2; to have one proves that the processor does.
+#[cfg(target_arch = "x86_64")]
+pub use pulp::x86::V3 as Avx2;
+
+#[cfg(target_arch = "x86_64")]
+impl Lanes for Avx2 {
+    type Vector = std::arch::x86_64::__m256;
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> Self::Vector {
+        self.avx._mm256_set1_ps(x)
+    }
+    #[inline(always)]
+    fn load(self, x: &[f32; LANES]) -> Self::Vector {
+        pulp::cast(*x)
+    }
+    #[inline(always)]
+    fn store(self, v: Self::Vector) -> [f32; LANES] {
+        pulp::cast(v)
+    }
+    #[inline(always)]
+    fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.avx._mm256_add_ps(a, b)
+    }
+    #[inline(always)]
+    fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.avx._mm256_sub_ps(a, b)
+    }
+    #[inline(always)]
+    fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.avx._mm256_mul_ps(a, b)
+    }
+    #[inline(always)]
+    fn div(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.avx._mm256_div_ps(a, b)
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector {
+        self.fma._mm256_fmadd_ps(a, b, c)
+    }
+    #[inline(always)]
+    fn max(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.avx._mm256_max_ps(a, b)
+    }
+    #[inline(always)]
+    fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.avx._mm256_min_ps(a, b)
+    }
+    #[inline(always)]
+    fn abs(self, a: Self::Vector) -> Self::Vector {
+        self.avx._mm256_andnot_ps(self.splat(-0.0), a)
+    }
+    #[inline(always)]
+    fn less(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.avx._mm256_cmp_ps::<{ std::arch::x86_64::_CMP_LT_OQ }>(a, b)
+    }
+    #[inline(always)]
+    fn in_range(self, x: &[u32; LANES], first: u32, count: u32) -> Self::Vector {
+        let broadcast = |x: u32| self.avx._mm256_set1_epi32(x.cast_signed());
+        let offset = self.avx2._mm256_sub_epi32(pulp::cast(*x), broadcast(first));
+        let least = self.avx2._mm256_min_epu32(offset, broadcast(count - 1));
+        pulp::cast(self.avx2._mm256_cmpeq_epi32(least, offset))
+    }
+    #[inline(always)]
+    fn and(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.avx._mm256_and_ps(a, b)
+    }
+    #[inline(always)]
+    fn bits(self, mask: Self::Vector) -> u32 {
+        self.avx._mm256_movemask_ps(mask).cast_unsigned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check<L: Lanes>(l: L) {
+        let (x, y) = ([1.0, -2.0, 3.0, 0.0, 5.5, -6.0, 7.0, 8.0], [2.0, -3.0, 3.0, -1.0, 9.0, 6.0, 0.5, 1.0]);
+        let (a, b) = (l.load(&x), l.load(&y));
+        let by_lane = |f: fn(f32, f32) -> f32| std::array::from_fn(|k| f(x[k], y[k]));
+        assert_eq!(l.store(l.add(a, b)), by_lane(|x, y| x + y));
+        assert_eq!(l.store(l.sub(a, b)), by_lane(|x, y| x - y));
+        assert_eq!(l.store(l.mul(a, b)), by_lane(|x, y| x * y));
+        assert_eq!(l.store(l.div(a, b)), by_lane(|x, y| x / y));
+        assert_eq!(l.store(l.max(a, b)), by_lane(f32::max));
+        assert_eq!(l.store(l.min(a, b)), by_lane(f32::min));
+        assert_eq!(l.store(l.abs(a)), by_lane(|x, _| x.abs()));
+        assert_eq!(l.store(l.mul_add(a, b, l.splat(1.0))), by_lane(|x, y| x * y + 1.0));
+        assert_eq!(l.store(l.and(a, l.less(a, b))), by_lane(|x, y| if x < y { x } else { 0.0 }));
+        assert_eq!(l.bits(l.less(a, b)), 0b0011_0001);
+        assert_eq!(l.bits(l.in_range(&[0, 5, 6, 7, 8, u32::MAX, 4, 1 << 31], 5, 3)), 0b0000_1110);
+        assert_eq!(l.sum(a), 16.5);
+        assert_eq!(l.store(l.dot([a, a, a], [b, b, l.splat(1.0)])), by_lane(|x, y| 2.0 * x * y + x));
+    }
+
+    #[test]
+    fn all_sets_of_instructions_agree() {
+        check(Portable);
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Avx2::try_new() {
+            check(avx2);
+        }
+    }
+}
