@@ -37,6 +37,11 @@ impl Mask {
             inside: image.iter().map(|luma| *luma > 127).collect(),
         })
     }
+
+    /// The other pixels.
+    pub fn inverted(&self) -> Self {
+        Self { inside: self.inside.iter().map(|inside| !inside).collect(), ..*self }
+    }
 }
 
 #[cfg(test)]
@@ -59,6 +64,8 @@ mod tests {
         assert_eq!(read.get_pixel(0, 1).0, [0, 0, 255]);
         let mask = Mask::read(&path).unwrap();
         assert_eq!((mask.width, mask.height, mask.inside[3], mask.inside[5]), (2, 3, true, false));
+        let others = mask.inverted();
+        assert_eq!((others.width, others.height, others.inside[3], others.inside[5]), (2, 3, false, true));
     }
 
     #[test]

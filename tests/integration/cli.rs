@@ -219,30 +219,58 @@ fn what_cannot_be_written_ends_with_1_and_leaves_what_was_there() {
     assert_eq!(names(dir.path()), ["a.png", "ball.toml"], "no temporary file stays");
 }
 
-#[test]
-fn bench_measures_against_a_reference() {
+/// A folder with a scene, a reference of it and a mask.
+fn bench_folder() -> TempDir {
     let dir = folder();
-    let render = |out: &str, iterations: &str| {
+    for (out, iterations) in [("truth.exr", "64"), ("mask.png", "1")] {
         let run = ["render", "ball.toml", "-o", out, "--size", "32x32", "--seed", "7", "--iterations", iterations];
         assert!(patchlight(dir.path(), &run).status.success());
-    };
-    render("truth.exr", "64");
-    render("mask.png", "1");
+    }
+    dir
+}
+
+/// The column of this name in a table with a head.
+fn column<'a>(csv: &'a str, name: &str) -> Vec<&'a str> {
+    let lines: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{csv}");
+    let index = lines[0].iter().position(|key| *key == name).unwrap_or_else(|| panic!("{name} in {csv}"));
+    lines[1..].iter().map(|line| line[index]).collect()
+}
+
+#[test]
+fn bench_measures_against_a_reference() {
+    let dir = bench_folder();
     let run =
         ["--reference", "truth.exr", "--mask", "mask.png", "--seconds", "0.2,0.05", "--seeds", "2", "--csv", "a.csv"];
     let output = patchlight(dir.path(), &[&["bench", "ball.toml"], &run[..]].concat());
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(stdout(&output).contains("RMSE falls like t^"), "{}", stdout(&output));
-    let csv = fs::read_to_string(dir.path().join("a.csv")).unwrap();
-    let lines: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
-    assert_eq!(lines.len(), 5, "a head, and two times for each of two seeds:\n{csv}");
-    assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{csv}");
-    assert_eq!((lines[1][0], lines[1][1], lines[3][0]), ("0", "0.05", "1"), "{csv}");
-    let rmse = lines[0].iter().position(|key| *key == "rmse").unwrap();
-    for line in &lines[1..] {
-        let error: f64 = line[rmse].parse().unwrap();
-        assert!(error > 0.0 && error < 0.1, "a ball lit by one lamp is soon right: {csv}");
+    for part in ["RMSE falls like t^", "\nmedians of 2 seeds\n", "RMSE out  relMSE out"] {
+        assert!(stdout(&output).contains(part), "{part:?} in\n{}", stdout(&output));
     }
+    let csv = fs::read_to_string(dir.path().join("a.csv")).unwrap();
+    assert_eq!(column(&csv, "seed"), ["0", "0", "1", "1"]);
+    assert_eq!(column(&csv, "mark"), ["0.05", "0.2", "0.05", "0.2"]);
+    for rmse in column(&csv, "rmse") {
+        let rmse: f64 = rmse.parse().unwrap();
+        assert!(rmse > 0.0 && rmse < 0.1, "a ball lit by one lamp is soon right: {csv}");
+    }
+    // Outside the mask are the background, which nobody gets wrong, and the ball's dark side.
+    let outside = column(&csv, "rmse_outside");
+    assert!(outside.iter().all(|rmse| rmse.parse().is_ok_and(|rmse: f64| rmse < 0.1)), "{csv}");
+    assert_ne!(outside, column(&csv, "rmse"));
+}
+
+#[test]
+fn bench_without_a_mask_counts_every_pixel() {
+    let dir = bench_folder();
+    let run = ["bench", "ball.toml", "--reference", "truth.exr", "--seconds", "0.05", "--csv", "a.csv"];
+    let output = patchlight(dir.path(), &run);
+    assert!(output.status.success(), "{}", stderr(&output));
+    for part in ["falls like", "median", "out"] {
+        assert!(!stdout(&output).contains(part), "{part:?} in\n{}", stdout(&output));
+    }
+    let csv = fs::read_to_string(dir.path().join("a.csv")).unwrap();
+    assert_eq!(column(&csv, "rmse_outside"), [""]);
 }
 
 #[test]

@@ -1,10 +1,17 @@
-use super::measurement::{Measurement, log_slope};
+//! The tables that people read.
+
+use super::{
+    measurement::Measurement,
+    median::{Median, Pair, medians},
+    slope::slopes,
+};
 use std::fmt::Write;
 
-/// The head of the table that people read.
-pub(super) fn header() -> String {
+/// The head of the table of measurements; with a mask it has columns for the pixels outside.
+pub(super) fn header(masked: bool) -> String {
+    let outside = if masked { format!("{:>11} {:>11} ", "RMSE out", "relMSE out") } else { String::new() };
     format!(
-        "{:>8} {:>4} {:>10} {:>11} {:>12} {:>10} {:>10} {:>10} {:>10}  {}",
+        "{:>8} {:>4} {:>10} {:>11} {:>12} {:>10} {:>10} {:>10} {:>12} {outside} {}",
         "seconds",
         "seed",
         "iterations",
@@ -22,8 +29,9 @@ pub(super) fn header() -> String {
 pub(super) fn line(row: &Measurement) -> String {
     let (stats, errors) = (&row.stats, &row.errors);
     let [r, g, b] = errors.mean_ratio;
+    let outside = row.outside.map_or(String::new(), |e| format!("{:>11.5} {:>11.3e} ", e.rmse, e.rel_mse));
     format!(
-        "{:>8.2} {:>4} {:>10} {:>11} {:>12} {:>10.5} {:>10.3e} {:>10.5} {:>12.3e}  {r:.4} {g:.4} {b:.4}",
+        "{:>8.2} {:>4} {:>10} {:>11} {:>12} {:>10.5} {:>10.3e} {:>10.5} {:>12.3e} {outside} {r:.4} {g:.4} {b:.4}",
         stats.seconds,
         row.seed,
         stats.iterations,
@@ -36,15 +44,14 @@ pub(super) fn line(row: &Measurement) -> String {
     )
 }
 
-/// How fast the errors fall, and where the time went.
-pub(super) fn summary(rows: &[Measurement]) -> String {
-    let slope = |error: fn(&Measurement) -> f64| log_slope(rows.iter().map(|row| (row.stats.seconds, error(row))));
-    let (rmse, rel_mse) = (slope(|row| row.errors.rmse), slope(|row| row.errors.rel_mse));
-    let mut text = if rmse.is_finite() && rel_mse.is_finite() {
-        format!("RMSE falls like t^{rmse:.2}, relMSE like t^{rel_mse:.2}\n")
-    } else {
-        String::new()
-    };
+/// The medians where there are several seeds, how fast the errors fall, and where the time went.
+pub(super) fn summary(rows: &[Measurement], seeds: u64) -> String {
+    let medians = medians(rows);
+    let mut text = if seeds > 1 { median_lines(&medians, seeds) } else { String::new() };
+    if let Some(Pair { rmse, rel_mse }) = slopes(&medians) {
+        text +=
+            &format!("RMSE falls like t^{rmse:.2}, relMSE like t^{rel_mse:.2}, over the last two octaves of time\n");
+    }
     if let Some(last) = rows.last() {
         let passes = &last.stats.passes;
         let total = last.stats.seconds / 100.0;
@@ -65,32 +72,51 @@ pub(super) fn summary(rows: &[Measurement]) -> String {
     text
 }
 
-/// Everything that was measured, for other programs.
-pub(super) fn csv(rows: &[Measurement]) -> String {
-    let mut text = "seed,mark,seconds,iterations,photons,rays,dropped,rmse,rel_mse,rmse_trimmed,rel_mse_trimmed,\
-                    mean_ratio_r,mean_ratio_g,mean_ratio_b,camera,photons_pass,map,gather,commit\n"
-        .to_owned();
-    for Measurement { seed, mark, stats, errors } in rows {
-        let counts = [stats.iterations, stats.photons_emitted, stats.rays, stats.dropped_samples];
-        let [r, g, b] = errors.mean_ratio;
-        let passes = &stats.passes;
-        let numbers = [
-            errors.rmse,
-            errors.rel_mse,
-            errors.rmse_trimmed,
-            errors.rel_mse_trimmed,
-            r,
-            g,
-            b,
-            passes.camera,
-            passes.photons,
-            passes.map,
-            passes.gather,
-            passes.commit,
-        ];
-        let counts = counts.map(|n| n.to_string()).join(",");
-        let numbers = numbers.map(|x| x.to_string()).join(",");
-        text += &format!("{seed},{mark},{},{counts},{numbers}\n", stats.seconds);
+fn median_lines(medians: &[Median], seeds: u64) -> String {
+    let masked = medians.iter().any(|median| median.outside.is_some());
+    let outside = if masked { format!(" {:>11} {:>11}", "RMSE out", "relMSE out") } else { String::new() };
+    let mut text =
+        format!("medians of {seeds} seeds\n{:>8} {:>10} {:>10} {:>10}{outside}\n", "mark", "seconds", "RMSE", "relMSE");
+    for Median { mark, seconds, errors, outside } in medians {
+        let outside = outside.map_or(String::new(), |e| format!(" {:>11.5} {:>11.3e}", e.rmse, e.rel_mse));
+        text += &format!("{mark:>8} {seconds:>10.2} {:>10.5} {:>10.3e}{outside}\n", errors.rmse, errors.rel_mse);
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        engine::Stats,
+        film::{Errors, LinearImage, compare},
+    };
+
+    fn row(seed: u64, mark: f64, rmse: f64, outside: Option<f64>) -> Measurement {
+        let black = LinearImage::black(1, 1);
+        let errors = compare(&black, &black, None).unwrap();
+        let stats = Stats { seconds: mark, ..Stats::default() };
+        let with = |rmse| Errors { rmse, rel_mse: rmse * rmse, ..errors };
+        Measurement { seed, mark, stats, errors: with(rmse), outside: outside.map(with) }
+    }
+
+    #[test]
+    fn columns_are_as_wide_as_their_heads() {
+        for outside in [None, Some(0.25)] {
+            let (head, line) = (header(outside.is_some()), line(&row(0, 1.0, 0.5, outside)));
+            let numbers = line.find("NaN NaN NaN").unwrap();
+            assert_eq!(head.find("mean/true"), Some(numbers), "\n{head}\n{line}");
+            assert_eq!(line.contains(" 0.25000   6.250e-2 "), outside.is_some(), "{line}");
+        }
+    }
+
+    #[test]
+    fn medians_stand_below_several_seeds() {
+        let rows = [row(0, 1.0, 0.5, None), row(1, 1.0, 0.1, None), row(2, 1.0, 0.2, None)];
+        let text = summary(&rows, 3);
+        assert!(text.starts_with("medians of 3 seeds\n"), "{text}");
+        assert!(text.contains("       1       1.00    0.20000   4.000e-2\n"), "{text}");
+        assert!(!text.contains("falls like"), "there is one time only: {text}");
+        assert!(!summary(&rows[..1], 1).contains("median"));
+    }
 }

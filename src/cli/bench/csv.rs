@@ -1,0 +1,34 @@
+use super::measurement::Measurement;
+
+/// Everything that was measured, for other programs. What is outside a mask that is not there stays empty.
+pub(super) fn csv(rows: &[Measurement]) -> String {
+    let mut text = "seed,mark,seconds,iterations,photons,rays,dropped,rmse,rel_mse,rmse_trimmed,rel_mse_trimmed,\
+                    rmse_outside,rel_mse_outside,mean_ratio_r,mean_ratio_g,mean_ratio_b,camera,photons_pass,map,\
+                    gather,commit\n"
+        .to_owned();
+    for Measurement { seed, mark, stats, errors, outside } in rows {
+        let counts = [stats.iterations, stats.photons_emitted, stats.rays, stats.dropped_samples];
+        let [r, g, b] = errors.mean_ratio;
+        let passes = &stats.passes;
+        let numbers = [
+            Some(errors.rmse),
+            Some(errors.rel_mse),
+            Some(errors.rmse_trimmed),
+            Some(errors.rel_mse_trimmed),
+            outside.map(|e| e.rmse),
+            outside.map(|e| e.rel_mse),
+            Some(r),
+            Some(g),
+            Some(b),
+            Some(passes.camera),
+            Some(passes.photons),
+            Some(passes.map),
+            Some(passes.gather),
+            Some(passes.commit),
+        ];
+        let counts = counts.map(|n| n.to_string()).join(",");
+        let numbers = numbers.map(|x| x.map_or(String::new(), |x| x.to_string())).join(",");
+        text += &format!("{seed},{mark},{},{counts},{numbers}\n", stats.seconds);
+    }
+    text
+}

@@ -1,0 +1,91 @@
+use super::measurement::Measurement;
+use crate::film::Errors;
+
+/// A number for each way to measure an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pair {
+    pub(super) rmse: f64,
+    pub(super) rel_mse: f64,
+}
+
+/// The middle of what the seeds gave at one mark.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Median {
+    pub(super) mark: f64,
+    /// What iterations really took.
+    pub(super) seconds: f64,
+    pub(super) errors: Pair,
+    /// Of the pixels outside the mask, where there is one.
+    pub(super) outside: Option<Pair>,
+}
+
+/// One for each mark, the earliest first.
+pub(super) fn medians(rows: &[Measurement]) -> Vec<Median> {
+    let mut marks: Vec<_> = rows.iter().map(|row| row.mark).collect();
+    marks.sort_by(f64::total_cmp);
+    marks.dedup();
+    marks.into_iter().map(|mark| at_mark(mark, rows)).collect()
+}
+
+fn at_mark(mark: f64, rows: &[Measurement]) -> Median {
+    let rows: Vec<_> = rows.iter().filter(|row| row.mark == mark).collect();
+    let outside: Vec<_> = rows.iter().filter_map(|row| row.outside).collect();
+    Median {
+        mark,
+        seconds: median(rows.iter().map(|row| row.stats.seconds)),
+        errors: pair(rows.iter().map(|row| row.errors)),
+        outside: (!outside.is_empty()).then(|| pair(outside.into_iter())),
+    }
+}
+
+fn pair(errors: impl Iterator<Item = Errors> + Clone) -> Pair {
+    Pair { rmse: median(errors.clone().map(|e| e.rmse)), rel_mse: median(errors.map(|e| e.rel_mse)) }
+}
+
+/// The middle value; of an even number of values the mean of the two in the middle; of none not a number.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<_> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let half = values.len() / 2;
+    match (values.get(half), half.checked_sub(1).and_then(|k| values.get(k))) {
+        (Some(upper), Some(lower)) if values.len().is_multiple_of(2) => (lower + upper) / 2.0,
+        (Some(middle), _) => *middle,
+        (None, _) => f64::NAN,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        engine::Stats,
+        film::{LinearImage, compare},
+    };
+
+    #[test]
+    fn the_middle_of_the_values() {
+        assert_eq!(median([3.0, 1.0, 9.0].into_iter()), 3.0);
+        assert_eq!(median([4.0, 1.0, 9.0, 2.0].into_iter()), 3.0);
+        assert_eq!(median([5.0].into_iter()), 5.0);
+        assert!(median([].into_iter()).is_nan());
+    }
+
+    #[test]
+    fn marks_are_kept_apart() {
+        let black = LinearImage::black(1, 1);
+        let errors = compare(&black, &black, None).unwrap();
+        let row = |seed, mark, seconds, rmse| Measurement {
+            seed,
+            mark,
+            stats: Stats { seconds, ..Stats::default() },
+            errors: Errors { rmse, ..errors },
+            outside: Some(Errors { rel_mse: 2.0 * rmse, ..errors }),
+        };
+        let rows = [row(0, 1.0, 0.9, 4.0), row(0, 2.0, 1.9, 1.0), row(1, 1.0, 0.7, 6.0), row(1, 2.0, 1.7, 2.0)];
+        let medians = medians(&rows);
+        assert_eq!(medians.iter().map(|m| m.mark).collect::<Vec<_>>(), [1.0, 2.0]);
+        assert!((medians[0].seconds - 0.8).abs() < 1e-12);
+        assert_eq!((medians[0].errors.rmse, medians[1].errors.rmse), (5.0, 1.5));
+        assert_eq!(medians[1].outside, Some(Pair { rmse: 0.0, rel_mse: 3.0 }));
+    }
+}

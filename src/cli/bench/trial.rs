@@ -1,0 +1,51 @@
+use super::{CliError, measurement::Measurement, table, truth::Truth};
+use crate::{cli::render::advance, engine::Session, scene::SceneFile};
+use std::io::{Write, stdout};
+
+/// What is measured, and how often.
+pub(super) struct Trial {
+    pub(super) file: SceneFile,
+    pub(super) truth: Truth,
+    /// Seconds, the earliest first.
+    pub(super) marks: Vec<f64>,
+    pub(super) seeds: u64,
+}
+
+impl Trial {
+    /// The picture is rendered with as many pixels as the truth has.
+    pub(super) fn new(mut file: SceneFile, truth: Truth, seconds: &[f64], seeds: u64) -> Self {
+        (file.scene.film.width, file.scene.film.height) = truth.size();
+        let mut marks = seconds.to_vec();
+        marks.sort_by(f64::total_cmp);
+        Self { file, truth, marks, seeds }
+    }
+
+    /// Measures with each seed, and prints as it goes. To be called inside the thread pool that is to do the work.
+    pub(super) fn measure(&self) -> Result<Vec<Measurement>, CliError> {
+        writeln!(stdout(), "{}", table::header(self.truth.is_masked()))?;
+        let mut rows = Vec::new();
+        for seed in 0..self.seeds {
+            self.measure_seed(seed, &mut rows)?;
+        }
+        write!(stdout(), "{}", table::summary(&rows, self.seeds))?;
+        Ok(rows)
+    }
+
+    /// Renders until the last mark and measures the picture at each of them; at a mark that comes before the first
+    /// iteration's end, after that.
+    fn measure_seed(&self, seed: u64, rows: &mut Vec<Measurement>) -> Result<(), CliError> {
+        let mut session = Session::prepare(&self.file, seed, None)?;
+        let mut last = advance(&mut session);
+        for mark in &self.marks {
+            while session.seconds() + last <= *mark {
+                last = advance(&mut session);
+            }
+            let frame = session.frame(0);
+            let (errors, outside) = self.truth.errors(&frame.image)?;
+            let row = Measurement { seed, mark: *mark, stats: frame.stats, errors, outside };
+            writeln!(stdout(), "{}", table::line(&row))?;
+            rows.push(row);
+        }
+        Ok(())
+    }
+}

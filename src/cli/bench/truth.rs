@@ -1,0 +1,62 @@
+use crate::film::{Errors, ImageError, LinearImage, Mask, compare};
+
+/// What pictures are compared with.
+pub(super) struct Truth {
+    reference: LinearImage,
+    /// The pixels that count, and the others.
+    masks: Option<(Mask, Mask)>,
+}
+
+impl Truth {
+    /// Fails when the mask does not fit the reference: before the rendering rather than after it.
+    pub(super) fn new(reference: LinearImage, mask: Option<Mask>) -> Result<Self, ImageError> {
+        compare(&reference, &reference, mask.as_ref())?;
+        let masks = mask.map(|mask| {
+            let others = mask.inverted();
+            (mask, others)
+        });
+        Ok(Self { reference, masks })
+    }
+
+    /// Pixels in a row, and rows.
+    pub(super) fn size(&self) -> (u32, u32) {
+        (self.reference.width, self.reference.height)
+    }
+
+    /// Whether some pixels do not count.
+    pub(super) fn is_masked(&self) -> bool {
+        self.masks.is_some()
+    }
+
+    /// The errors of the pixels that count, and of the others where there is a mask.
+    pub(super) fn errors(&self, image: &LinearImage) -> Result<(Errors, Option<Errors>), ImageError> {
+        let errors = |mask| compare(image, &self.reference, mask);
+        match &self.masks {
+            None => Ok((errors(None)?, None)),
+            Some((mask, others)) => Ok((errors(Some(mask))?, Some(errors(Some(others))?))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Rgb;
+
+    #[test]
+    fn errors_are_told_apart_by_the_mask() {
+        let reference = LinearImage::black(2, 1);
+        let image = LinearImage { pixels: vec![Rgb::splat(1.0), Rgb::splat(3.0)], ..reference.clone() };
+        let mask = Mask { width: 2, height: 1, inside: vec![false, true] };
+        let (inside, outside) = Truth::new(reference.clone(), Some(mask)).unwrap().errors(&image).unwrap();
+        assert_eq!((inside.rmse, outside.unwrap().rmse), (3.0, 1.0));
+        let (all, outside) = Truth::new(reference, None).unwrap().errors(&image).unwrap();
+        assert_eq!((all.rmse, outside), (5f64.sqrt(), None));
+    }
+
+    #[test]
+    fn a_mask_of_another_size_is_refused() {
+        let mask = Mask { width: 1, height: 1, inside: vec![true] };
+        assert!(Truth::new(LinearImage::black(2, 1), Some(mask)).is_err());
+    }
+}
