@@ -96,6 +96,9 @@ pub(super) struct BenchArguments {
     /// Write the table to this file
     #[arg(long, value_name = "OUT.csv")]
     pub(super) csv: Option<PathBuf>,
+    /// Draw the errors over time, both on logarithmic axes
+    #[arg(long, value_name = "OUT.png")]
+    pub(super) plot: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

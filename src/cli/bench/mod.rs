@@ -1,8 +1,10 @@
 //! Time against error: how fast a scene's picture comes near to its reference.
 
+mod axis;
 mod csv;
 mod measurement;
 mod median;
+mod plot;
 mod slope;
 mod table;
 mod trial;
@@ -25,6 +27,7 @@ use truth::Truth;
 /// `patchlight bench`.
 pub(super) fn bench(arguments: &BenchArguments) -> Result<(), CliError> {
     arguments.csv.as_deref().map_or(Ok(()), needs_folder)?;
+    arguments.plot.as_deref().map_or(Ok(()), needs_png)?;
     let file = SceneFile::find(&arguments.scene)?;
     let reference = read_exr(&arguments.reference)?;
     let mask = arguments.mask.as_deref().map(Mask::read).transpose()?;
@@ -33,7 +36,19 @@ pub(super) fn bench(arguments: &BenchArguments) -> Result<(), CliError> {
     if let Some(path) = &arguments.csv {
         write(path, csv::csv(&rows).as_bytes())?;
     }
+    if let Some(path) = &arguments.plot {
+        write(path, &plot::png(&trial.file.scene.name, &rows)?)?;
+    }
     Ok(())
+}
+
+/// Tells before the rendering that a plot cannot be written there.
+fn needs_png(path: &Path) -> Result<(), CliError> {
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
+        needs_folder(path)
+    } else {
+        Err(CliError::Usage(format!("{}: expected a name that ends in .png", path.display())))
+    }
 }
 
 /// Writes a result, whole or not at all.
