@@ -77,11 +77,11 @@ pub(super) struct Budget {
 #[derive(Debug, Args)]
 pub(super) struct BenchArguments {
     /// A scene file or the name of a built-in scene
-    pub(super) scene: PathBuf,
+    pub(super) scene: Option<PathBuf>,
     /// The true picture
     #[arg(long, value_name = "REF.exr")]
-    pub(super) reference: PathBuf,
-    /// Count only pixels that are bright in this picture
+    pub(super) reference: Option<PathBuf>,
+    /// Count only pixels that are bright in this picture, and the others apart
     #[arg(long, value_name = "MASK.png")]
     pub(super) mask: Option<PathBuf>,
     /// When to measure
@@ -99,6 +99,13 @@ pub(super) struct BenchArguments {
     /// Draw the errors over time, both on logarithmic axes
     #[arg(long, value_name = "OUT.png")]
     pub(super) plot: Option<PathBuf>,
+    /// Measure all the scenes that this file lists, instead of SCENE: for each a [[run]] with name, scene, seconds and
+    /// perhaps seeds, mask, and reference or reference_seconds
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["scene", "reference", "mask", "seconds", "seeds", "csv", "plot"])]
+    pub(super) suite: Option<PathBuf>,
+    /// Where the tables and plots of a suite go
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(super) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

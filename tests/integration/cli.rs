@@ -187,7 +187,7 @@ fn a_texture_that_is_no_image_is_a_scene_mistake() {
 #[test]
 fn command_line_mistakes_end_with_2() {
     let dir = folder();
-    let mistakes: [(&[&str], &str); 11] = [
+    let mistakes: [(&[&str], &str); 16] = [
         (&["render", "ball.toml"], "--output"),
         (&["render", "ball.toml", "-o", "a.jpg"], "ends in .png or .exr"),
         (&["render", "ball.toml", "-o", "no/a.png"], "there is no folder no"),
@@ -203,6 +203,14 @@ fn command_line_mistakes_end_with_2() {
         ),
         (&["render", "bogus", "-o", "a.png"], "bogus: there is no such scene file, and built in are report"),
         (&["bench", "ball.toml", "--reference", "nothing.exr"], "nothing.exr: cannot be read"),
+        (&["bench", "ball.toml"], "expected either SCENE --reference REF.exr, or --suite FILE.toml --output FOLDER"),
+        (&["bench", "--suite", "a.toml", "--output", "out"], "a.toml: cannot be read"),
+        (&["bench", "--suite", "a.toml", "--output", "out", "--seeds", "2"], "cannot be used with"),
+        (
+            &["bench", "ball.toml", "--reference", "a.exr", "--plot", "a.svg"],
+            "a.svg: expected a name that ends in .png",
+        ),
+        (&["bench", "ball.toml", "--reference", "a.exr", "--plot", "no/a.png"], "there is no folder no"),
     ];
     for (arguments, message) in mistakes {
         fails(&patchlight(dir.path(), arguments), 2, &[message]);
@@ -271,6 +279,87 @@ fn bench_without_a_mask_counts_every_pixel() {
     }
     let csv = fs::read_to_string(dir.path().join("a.csv")).unwrap();
     assert_eq!(column(&csv, "rmse_outside"), [""]);
+}
+
+#[test]
+fn bench_draws_a_plot() {
+    let dir = bench_folder();
+    let run = ["bench", "ball.toml", "--reference", "truth.exr", "--seconds", "0.05,0.2", "--plot", "a.PNG"];
+    let output = patchlight(dir.path(), &run);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let plot = image::load_from_memory(&fs::read(dir.path().join("a.PNG")).unwrap()).unwrap().into_rgb8();
+    let colored = plot.pixels().filter(|pixel| pixel.0.iter().max().unwrap() - pixel.0.iter().min().unwrap() > 100);
+    assert!(colored.count() > 500, "two curves in colour");
+}
+
+const SUITE: &str = r#"
+[[run]]
+name = "own"
+scene = "ball.toml"
+reference_seconds = 0.3
+seconds = [0.05, 0.2]
+seeds = 2
+
+[[run]]
+name = "given"
+scene = "ball.toml"
+reference = "truth.exr"
+mask = "mask.png"
+seconds = [0.1]
+"#;
+
+#[test]
+fn a_suite_measures_all_its_scenes() {
+    let dir = bench_folder();
+    let small = SCENE.replace("[[material]]", "[film]\nwidth = 24\nheight = 16\n\n[[material]]");
+    fs::write(dir.path().join("ball.toml"), small).unwrap();
+    fs::write(dir.path().join("suite.toml"), SUITE).unwrap();
+    fs::create_dir(dir.path().join("elsewhere")).unwrap();
+    // Paths in the suite are relative to it, the folder to the place where the program runs.
+    let elsewhere = dir.path().join("elsewhere");
+    let output = patchlight(&elsewhere, &["bench", "--suite", "../suite.toml", "--output", "out/put"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).contains("rendering a reference for 0.3 s\n"), "{}", stdout(&output));
+    let out = elsewhere.join("out/put");
+    assert_eq!(names(&out), ["given.csv", "given.png", "own.csv", "own.png", "table.md"]);
+    let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+    assert_eq!(column(&read("own.csv"), "seed"), ["0", "0", "1", "1"]);
+    for rmse in column(&read("own.csv"), "rmse") {
+        let rmse: f64 = rmse.parse().unwrap();
+        assert!(rmse > 0.0 && rmse < 0.1, "the reference has another noise: {}", read("own.csv"));
+    }
+    let table = read("table.md");
+    let marks: Vec<_> = table.lines().filter_map(|line| line.split('|').nth(2)).map(str::trim).collect();
+    assert_eq!(marks, ["mark", "--:", "0.05", "0.2", "0.1"], "{table}");
+}
+
+#[test]
+fn suite_mistakes_end_with_2_before_anything_is_rendered() {
+    let dir = folder();
+    let suite = SUITE.replace("truth.exr", "ball.toml");
+    for (text, parts) in [
+        (suite.clone(), &["suite.toml: run \"given\": ", "mask.png: cannot be read"][..]),
+        (suite.replace("mask = ", "maks = "), &["suite.toml: ", "line 13", "unknown field `maks`", "`mask`"]),
+        (suite.replace("seeds = 2", "seeds = \"2\""), &["suite.toml: ", "line 7", "invalid type: string \"2\""]),
+        (suite.replace("\"ball.toml\"", "\"no.toml\""), &["suite.toml: run \"own\": no.toml: cannot be read"]),
+        (suite.replace("\"ball.toml\"", "\"tepot\""), &["run \"own\": ", "did you mean \"teapot\"?"]),
+        (suite.replace("mask = \"mask.png\"", ""), &["suite.toml: run \"given\": ball.toml: "]),
+    ] {
+        fs::write(dir.path().join("suite.toml"), text).unwrap();
+        fails(&patchlight(dir.path(), &["bench", "--suite", "suite.toml", "--output", "out"]), 2, parts);
+    }
+    assert_eq!(names(dir.path()), ["ball.toml", "suite.toml"], "nothing was written");
+}
+
+#[test]
+fn the_suite_of_the_project_is_valid() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let dir = folder();
+    fs::write(dir.path().join("taken"), "").unwrap();
+    let taken = dir.path().join("taken");
+    // All files are read before the folder is made, which fails here and ends it before the rendering.
+    let run = ["bench", "--suite", "benches/suite/suite.toml", "--output", taken.to_str().unwrap()];
+    fails(&patchlight(root, &run), 1, &["taken: the folder cannot be made"]);
 }
 
 #[test]

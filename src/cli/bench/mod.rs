@@ -6,6 +6,7 @@ mod measurement;
 mod median;
 mod plot;
 mod slope;
+mod suite;
 mod table;
 mod trial;
 mod truth;
@@ -26,10 +27,23 @@ use truth::Truth;
 
 /// `patchlight bench`.
 pub(super) fn bench(arguments: &BenchArguments) -> Result<(), CliError> {
+    let BenchArguments { scene, reference, suite, output, .. } = arguments;
+    match (scene, reference, suite, output) {
+        (Some(scene), Some(reference), None, None) => bench_scene(scene, reference, arguments),
+        (None, None, Some(suite), Some(output)) => suite::bench_suite(suite, output, arguments.threads),
+        _ => Err(CliError::Usage(
+            "expected either SCENE --reference REF.exr, or --suite FILE.toml --output FOLDER; \
+             see patchlight bench --help"
+                .to_owned(),
+        )),
+    }
+}
+
+fn bench_scene(scene: &Path, reference: &Path, arguments: &BenchArguments) -> Result<(), CliError> {
     arguments.csv.as_deref().map_or(Ok(()), needs_folder)?;
     arguments.plot.as_deref().map_or(Ok(()), needs_png)?;
-    let file = SceneFile::find(&arguments.scene)?;
-    let reference = read_exr(&arguments.reference)?;
+    let file = SceneFile::find(scene)?;
+    let reference = read_exr(reference)?;
     let mask = arguments.mask.as_deref().map(Mask::read).transpose()?;
     let trial = Trial::new(file, Truth::new(reference, mask)?, &arguments.seconds, arguments.seeds);
     let rows = pool(arguments.threads)?.install(|| trial.measure())?;

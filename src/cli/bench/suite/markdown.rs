@@ -1,0 +1,76 @@
+use crate::cli::bench::{
+    median::{Median, Pair},
+    slope::slopes,
+};
+
+/// The medians of several runs as one table of Markdown; a run's slopes stand in the line of its last mark.
+pub(super) fn table(runs: &[(String, Vec<Median>)], threads: usize) -> String {
+    let masked = runs.iter().flat_map(|(_, medians)| medians).any(|median| median.outside.is_some());
+    let outside = |text: String| if masked { text } else { String::new() };
+    let threads = if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
+    let mut text = format!(
+        "Medians over the seeds of each run, on {threads}. The seconds are those of the iterations that end before the \
+         mark, or of the first one. A slope is the power of time like which an error falls in the last two octaves.\n\n\
+         | scene | mark | seconds | RMSE | relMSE |{} slope of RMSE | slope of relMSE |\n\
+         |---|--:|--:|--:|--:|{}--:|--:|\n",
+        outside(" RMSE outside the mask | relMSE outside the mask |".to_owned()),
+        outside("--:|--:|".to_owned()),
+    );
+    for (name, medians) in runs {
+        for (k, median) in medians.iter().enumerate() {
+            let is_last = k + 1 == medians.len();
+            let slopes = slopes(medians).filter(|_| is_last);
+            text += &format!(
+                "| {name} | {} | {:.2} | {} |{} {} |\n",
+                median.mark,
+                median.seconds,
+                errors(median.errors),
+                outside(format!(" {} |", median.outside.map_or("|".to_owned(), errors))),
+                slopes.map_or("|".to_owned(), |s| format!("{:.2} | {:.2}", s.rmse, s.rel_mse)),
+            );
+        }
+    }
+    text
+}
+
+fn errors(pair: Pair) -> String {
+    format!("{:.5} | {:.2e}", pair.rmse, pair.rel_mse)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn median(mark: f64, rmse: f64, outside: Option<f64>) -> Median {
+        let pair = |rmse| Pair { rmse, rel_mse: rmse * rmse };
+        Median { mark, seconds: mark, errors: pair(rmse), outside: outside.map(pair) }
+    }
+
+    #[test]
+    fn a_line_for_each_mark() {
+        let runs = [("a".to_owned(), vec![median(1.0, 0.5, None), median(4.0, 0.25, None)])];
+        let text = table(&runs, 1);
+        assert!(text.starts_with("Medians over the seeds of each run, on 1 thread. "), "{text}");
+        assert!(
+            text.ends_with(
+                "\n\n| scene | mark | seconds | RMSE | relMSE | slope of RMSE | slope of relMSE |\n\
+                 |---|--:|--:|--:|--:|--:|--:|\n\
+                 | a | 1 | 1.00 | 0.50000 | 2.50e-1 | | |\n\
+                 | a | 4 | 4.00 | 0.25000 | 6.25e-2 | -0.50 | -1.00 |\n"
+            ),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn every_line_has_every_column() {
+        let runs = [
+            ("a".to_owned(), vec![median(1.0, 0.5, None)]),
+            ("b".to_owned(), vec![median(1.0, 0.5, Some(0.1)), median(2.0, 0.25, Some(0.1))]),
+        ];
+        let text = table(&runs, 2);
+        let bars: Vec<_> = text.lines().skip(2).map(|line| line.matches('|').count()).collect();
+        assert_eq!(bars, [10; 5], "{text}");
+        assert!(text.contains("| b | 1 | 1.00 | 0.50000 | 2.50e-1 | 0.10000 | 1.00e-2 | | |\n"), "{text}");
+    }
+}

@@ -1,0 +1,42 @@
+//! Several scenes measured with one command: what a suite's file lists.
+
+mod file;
+mod markdown;
+mod run;
+
+use super::{csv::csv, median::medians, plot, write};
+use crate::{
+    cli::{CliError, render::pool},
+    file::folder,
+};
+use run::Run;
+use std::{
+    fs,
+    io::{Write, stdout},
+    path::Path,
+};
+
+/// `patchlight bench --suite`: for each run a table and a plot into a folder, and the medians of all into one table.
+pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> Result<(), CliError> {
+    // All files are read before anything is rendered.
+    let load = |entry| Run::load(entry, &folder(suite)).map_err(|e| in_run(suite, &entry.name.0, &e));
+    let runs = file::read(suite)?.iter().map(load).collect::<Result<Vec<_>, _>>()?;
+    fs::create_dir_all(output)
+        .map_err(|e| CliError::Failed(format!("{}: the folder cannot be made: {e}", output.display())))?;
+    let pool = pool(threads)?;
+    let mut results = Vec::new();
+    for run in runs {
+        let name = run.name.clone();
+        writeln!(stdout(), "\n{name}")?;
+        let rows = pool.install(|| run.measure())?;
+        write(&output.join(format!("{name}.csv")), csv(&rows).as_bytes())?;
+        write(&output.join(format!("{name}.png")), &plot::png(&name, &rows)?)?;
+        results.push((name, medians(&rows)));
+    }
+    write(&output.join("table.md"), markdown::table(&results, pool.current_num_threads()).as_bytes())
+}
+
+/// What is wrong with a file that a run names.
+fn in_run(suite: &Path, run: &str, error: &CliError) -> CliError {
+    CliError::Usage(format!("{}: run \"{run}\": {error}", suite.display()))
+}

@@ -1,0 +1,85 @@
+use super::file::{Entry, Name};
+use crate::{
+    cli::{
+        CliError,
+        bench::{measurement::Measurement, trial::Trial, truth::Truth},
+        render::advance,
+    },
+    engine::Session,
+    film::{LinearImage, Mask, compare, read_exr},
+    scene::SceneFile,
+};
+use std::{
+    io::{Write, stdout},
+    path::Path,
+    sync::Arc,
+};
+
+/// The seed of own references: none that is measured.
+const REFERENCE_SEED: u64 = u64::MAX;
+
+/// A run with all the files that it names.
+pub(super) struct Run {
+    pub(super) name: String,
+    file: SceneFile,
+    reference: Reference,
+    mask: Option<Mask>,
+    marks: Vec<f64>,
+    seeds: u64,
+}
+
+enum Reference {
+    Given(LinearImage),
+    /// To be rendered, for so many seconds.
+    Own(f64),
+}
+
+impl Run {
+    /// Reads the files, whose paths are relative to `folder`.
+    pub(super) fn load(entry: &Entry, folder: &Path) -> Result<Self, CliError> {
+        let Name(name) = &entry.name;
+        let file = scene(&entry.scene, folder)?;
+        let mask = entry.mask.as_ref().map(|mask| Mask::read(&folder.join(mask))).transpose()?;
+        let reference = match &entry.reference {
+            Some(path) => Reference::Given(read_exr(&folder.join(path))?),
+            None => Reference::Own(entry.reference_seconds()),
+        };
+        // Whether the mask fits is told now, not after other runs.
+        let truth = match &reference {
+            Reference::Given(image) => image,
+            Reference::Own(_) => &LinearImage::black(file.scene.film.width, file.scene.film.height),
+        };
+        compare(truth, truth, mask.as_ref())?;
+        let (marks, seeds) = (entry.seconds.0.clone(), entry.seeds.get());
+        Ok(Self { name: name.clone(), file, reference, mask, marks, seeds })
+    }
+
+    /// To be called inside the thread pool that is to do the work.
+    pub(super) fn measure(self) -> Result<Vec<Measurement>, CliError> {
+        let reference = match self.reference {
+            Reference::Given(image) => image,
+            Reference::Own(seconds) => {
+                writeln!(stdout(), "rendering a reference for {seconds} s")?;
+                own_reference(&self.file, seconds)?
+            }
+        };
+        Trial::new(self.file, Truth::new(reference, self.mask)?, &self.marks, self.seeds).measure()
+    }
+}
+
+fn scene(name: &Path, folder: &Path) -> Result<SceneFile, CliError> {
+    let word = name.to_str().filter(|_| name.extension().is_none() && name.components().count() == 1);
+    Ok(match word {
+        Some(word) => SceneFile::built_in(word)?,
+        None => SceneFile::open(&folder.join(name))?,
+    })
+}
+
+fn own_reference(file: &SceneFile, seconds: f64) -> Result<LinearImage, CliError> {
+    let mut session = Session::prepare(file, REFERENCE_SEED, None)?;
+    let mut last = advance(&mut session);
+    while session.seconds() + last <= seconds {
+        last = advance(&mut session);
+    }
+    Ok(Arc::unwrap_or_clone(session.frame(0).image))
+}
