@@ -106,7 +106,7 @@ mod tests {
             let (head, line) = (header(outside.is_some()), line(&row(0, 1.0, 0.5, outside)));
             let numbers = line.find("NaN NaN NaN").unwrap();
             assert_eq!(head.find("mean/true"), Some(numbers), "\n{head}\n{line}");
-            assert_eq!(line.contains(" 0.25000   6.250e-2 "), outside.is_some(), "{line}");
+            assert_eq!(line.contains(" 0.25000    6.250e-2 "), outside.is_some(), "{line}");
         }
     }
 
