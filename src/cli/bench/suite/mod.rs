@@ -5,10 +5,7 @@ mod markdown;
 mod run;
 
 use super::{csv::csv, median::medians, plot, write};
-use crate::{
-    cli::{CliError, render::pool},
-    file::folder,
-};
+use crate::cli::{CliError, render::pool};
 use run::Run;
 use std::{
     fs,
@@ -19,7 +16,8 @@ use std::{
 /// `patchlight bench --suite`: for each run a table and a plot into a folder, and the medians of all into one table.
 pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> Result<(), CliError> {
     // All files are read before anything is rendered.
-    let load = |entry| Run::load(entry, &folder(suite)).map_err(|e| in_run(suite, &entry.name.0, &e));
+    let folder = suite.parent().unwrap_or(Path::new(""));
+    let load = |entry| Run::load(entry, folder).map_err(|e| in_run(suite, &entry.name.0, &e));
     let runs = file::read(suite)?.iter().map(load).collect::<Result<Vec<_>, _>>()?;
     fs::create_dir_all(output)
         .map_err(|e| CliError::Failed(format!("{}: the folder cannot be made: {e}", output.display())))?;
