@@ -175,7 +175,7 @@ mod tests {
         Measurement { seed, mark: seconds, stats, errors, outside: None }
     }
 
-    /// The middles of all pixels of a colour below the head.
+    /// All pixels of a colour below the head.
     fn places(png: &[u8], color: RGBColor) -> Vec<(u32, u32)> {
         let image = image::load_from_memory(png).unwrap().into_rgb8();
         assert_eq!(image.dimensions(), (WIDTH, HEIGHT));
