@@ -77,6 +77,17 @@ impl Primitive {
         }
     }
 
+    /// How far a point is from the surface; of a patch, from boxes that hold it closely. `limit` where that is less.
+    fn distance(&self, point: DVec3, limit: f64) -> f64 {
+        let distance = match self {
+            Self::Quad(quad) => quad.distance(point),
+            Self::Sphere(sphere) => sphere.distance(point),
+            Self::Plane(plane) => plane.distance(point),
+            Self::Patch(patch) => patch.distance(point, limit),
+        };
+        distance.min(limit)
+    }
+
     /// How the parameters run at a hit with this normal.
     pub fn tangents(&self, hit: &Hit, normal: DVec3) -> Tangents {
         let uv = DVec2::new(hit.u, hit.v);
@@ -139,6 +150,15 @@ impl Aggregate {
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
         occluded(self, ray)
+    }
+
+    /// How far a point is from the nearest of those primitives that count, or `limit` if that is less.
+    pub fn distance(&self, point: DVec3, limit: f64, counts: impl Fn(u32) -> bool) -> f64 {
+        let to = |primitive: u32, limit: f64| {
+            if counts(primitive) { self.primitives[primitive as usize].distance(point, limit) } else { limit }
+        };
+        let to_planes = self.planes.iter().fold(limit, |nearest, &plane| to(plane, nearest));
+        self.bvh.distance(point, to_planes, to)
     }
 
     /// Shortens the ray to its hit with one primitive, if there is one.

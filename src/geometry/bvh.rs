@@ -92,6 +92,24 @@ impl Bvh {
         }
     }
 
+    /// The least distance of a point to any item, where it is less than `limit`: `distance(item, limit)` tells that of one.
+    #[inline(always)]
+    pub fn distance(&self, point: glam::DVec3, limit: f64, mut distance: impl FnMut(u32, f64) -> f64) -> f64 {
+        let mut nearest = limit;
+        let mut open: ArrayVec<i32, STACK_CAPACITY> = self.nodes.first().map(|_| 0).into_iter().collect();
+        while let Some(child) = open.pop() {
+            if child < 0 {
+                nearest = nearest.min(distance(!child as u32, nearest));
+                continue;
+            }
+            let node = &self.nodes[child as usize];
+            let distances = node.distances_squared(point);
+            let near = |slot: &usize| distances[*slot] < nearest * nearest;
+            open.extend((0..WIDTH).filter(near).map(|slot| node.child[slot]));
+        }
+        nearest
+    }
+
     /// Bytes on the heap.
     pub fn memory_bytes(&self) -> usize {
         self.nodes.capacity() * size_of::<Node>()
@@ -125,6 +143,19 @@ impl Node {
         (0..self.count as usize)
             .map(|slot| Aabb { min: corner(&self.min, slot), max: corner(&self.max, slot) })
             .fold(Aabb::EMPTY, |all, one| all.union(&one))
+    }
+
+    /// For each child the squared distance of a point to its box, infinite where there is none.
+    #[inline(always)]
+    fn distances_squared(&self, point: glam::DVec3) -> [f64; WIDTH] {
+        let mut squares = [0.0; WIDTH];
+        for axis in 0..3 {
+            for (slot, square) in squares.iter_mut().enumerate() {
+                let outside = (self.min[axis][slot] - point[axis]).max(point[axis] - self.max[axis][slot]).max(0.0);
+                *square += outside * outside;
+            }
+        }
+        squares
     }
 
     /// For each child the t at which the ray enters its box, or infinity where it misses.

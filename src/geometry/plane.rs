@@ -34,6 +34,11 @@ impl Plane {
         Some((t, p.dot(self.u_axis), p.dot(self.v_axis)))
     }
 
+    /// How far a point is from the plane.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        (point - self.point).dot(self.normal).abs()
+    }
+
     /// The point at (u, v).
     pub fn position(&self, u: f64, v: f64) -> DVec3 {
         self.point + u * self.u_axis + v * self.v_axis

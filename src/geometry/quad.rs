@@ -62,6 +62,22 @@ impl Quad {
         self.edge_u.cross(self.edge_v).length()
     }
 
+    /// How far a point is from the quad.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        let offset = point - self.corner;
+        let (u, v) = (offset.dot(self.dual_u), offset.dot(self.dual_v));
+        if (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v) {
+            return offset.dot(self.normal).abs();
+        }
+        let to_edge = |start: DVec3, along: DVec3| {
+            let part = ((point - start).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            point.distance(start + part * along)
+        };
+        let (near, far) = (self.corner, self.corner + self.edge_u + self.edge_v);
+        let edges = [(near, self.edge_u), (near, self.edge_v), (far, -self.edge_u), (far, -self.edge_v)];
+        edges.into_iter().map(|(start, along)| to_edge(start, along)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The smallest box around the four corners.
     pub fn bounds(&self) -> Aabb {
         Aabb::around([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(u, v)| self.position(u, v)))
@@ -82,6 +98,17 @@ mod tests {
             if let Some((t, hit_u, hit_v)) = hit {
                 assert!((t - 2.0).abs() < 1e-12 && (hit_u - u).abs() < 1e-12 && (hit_v - v).abs() < 1e-12);
             }
+        }
+    }
+
+    #[test]
+    fn distances_are_those_of_the_nearest_of_many_points() {
+        let quad = Quad::new(DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 0.1, 0.0), DVec3::new(0.7, 1.0, 0.3));
+        let grid = || (0..=200).flat_map(|i| (0..=200).map(move |j| (f64::from(i) / 200.0, f64::from(j) / 200.0)));
+        for point in [DVec3::ZERO, DVec3::new(2.0, 2.5, 4.0), DVec3::new(9.0, 3.0, 3.0), DVec3::new(2.0, 1.0, 3.1)] {
+            let nearest = grid().map(|(u, v)| point.distance(quad.position(u, v))).fold(f64::INFINITY, f64::min);
+            // The grid's points are 0.01 apart.
+            assert!((quad.distance(point) - nearest).abs() < 0.01, "{} against {nearest}", quad.distance(point));
         }
     }
 

@@ -32,6 +32,11 @@ impl Sphere {
         if counts(near) { Some(near) } else { counts(far).then_some(far) }
     }
 
+    /// How far a point is from the surface.
+    pub fn distance(&self, p: DVec3) -> f64 {
+        (p.distance(self.center) - self.radius).abs()
+    }
+
     /// The outward unit normal at a point.
     pub fn normal(&self, p: DVec3) -> DVec3 {
         (p - self.center).normalize_or(DVec3::Y)

@@ -49,6 +49,11 @@ impl Aabb {
         s.x * s.y + s.y * s.z + s.z * s.x
     }
 
+    /// How far a point is from the box; 0 inside, infinite for an empty box.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        (self.min - point).max(point - self.max).max(DVec3::ZERO).length()
+    }
+
     /// The box grown by `margin` on every side.
     pub fn inflated(&self, margin: f64) -> Self {
         Self { min: self.min - margin, max: self.max + margin }

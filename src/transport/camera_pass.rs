@@ -7,6 +7,7 @@ use super::medium::Media;
 use super::photon;
 use super::plan::Plan;
 use super::{Cancel, Rows};
+use crate::geometry::{Hit, Primitive};
 use crate::math::{Ray, Rgb, Sampler, Stream, sobol};
 use crate::world::{Light, Lobe, Scattering, Surface, SurfacePoint, World};
 use arrayvec::ArrayVec;
@@ -19,6 +20,10 @@ const FOLLOWED_SPLITS: u32 = 2;
 const WEAK_BRANCH: f32 = 0.02;
 /// Enough for two branches at each followed split and one continuation each.
 const MAX_BRANCHES: usize = 16;
+/// Rows and columns of a tile.
+const TILE: u32 = 16;
+/// Samples of a pixel in an iteration at most.
+const MAX_SAMPLES: usize = 8;
 
 /// A point that the camera sees, directly or in mirrors and through glass, and that scatters light.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +44,8 @@ pub struct VisiblePoint {
     pub scattering: Scattering,
     /// Side of the pixel's footprint, scene units.
     pub footprint: f32,
+    /// How far the next object is, or more: light from near ones changes within a short way.
+    pub clearance: f32,
     /// Where on which primitive.
     pub primitive: u32,
     /// Parameters on it.
@@ -54,7 +61,7 @@ pub struct VisiblePoint {
 /// What the camera pass finds out about some rows of the film.
 #[derive(Clone, Debug, Default)]
 pub struct CameraBatch {
-    /// Where photons are to be gathered, row by row.
+    /// Where photons are to be gathered, tile by tile.
     pub visible_points: Vec<VisiblePoint>,
     /// For each pixel of the rows the radiance found so far: emitted and direct light.
     pub radiance: Vec<Rgb>,
@@ -71,20 +78,14 @@ pub fn camera_pass(
     iteration: u64,
     cancel: Cancel,
 ) -> Option<CameraBatch> {
-    let by_row: Vec<CameraBatch> = rows
-        .clone()
+    let strips: Vec<Rows> =
+        rows.clone().step_by(TILE as usize).map(|start| start..(start + TILE).min(rows.end)).collect();
+    let batches: Vec<CameraBatch> = strips
         .into_par_iter()
-        .map(|row| {
-            let mut walk =
-                Walk { world, plan, batch: CameraBatch::default(), branches: ArrayVec::new(), gathers: false };
-            for pixel in row * plan.camera.width..(row + 1) * plan.camera.width {
-                walk.sample_pixel(pixel, seed, iteration);
-            }
-            (!cancel.is_cancelled()).then_some(walk.batch)
-        })
+        .map(|strip| strip_pass(world, plan, strip, seed, iteration, cancel))
         .collect::<Option<_>>()?;
     let mut all = CameraBatch::default();
-    for batch in by_row {
+    for batch in batches {
         all.visible_points.extend_from_slice(&batch.visible_points);
         all.radiance.extend_from_slice(&batch.radiance);
         all.counters += batch.counters;
@@ -92,13 +93,47 @@ pub fn camera_pass(
     Some(all)
 }
 
+/// Some rows, tile by tile: visible points that follow each other are near each other, and so are their photons.
+fn strip_pass(
+    world: &World,
+    plan: &Plan,
+    rows: Rows,
+    seed: u64,
+    iteration: u64,
+    cancel: Cancel,
+) -> Option<CameraBatch> {
+    let width = plan.camera.width;
+    let radiance = vec![Rgb::ZERO; rows.len() * width as usize];
+    let batch = CameraBatch { radiance, ..CameraBatch::default() };
+    let mut walk = Walk { world, plan, batch, branches: ArrayVec::new(), gather_weight: 0.0 };
+    for left in (0..width).step_by(TILE as usize) {
+        if cancel.is_cancelled() {
+            return None;
+        }
+        for row in rows.clone() {
+            for column in left..(left + TILE).min(width) {
+                let radiance = walk.sample_pixel(row * width + column, seed, iteration);
+                walk.batch.radiance[((row - rows.start) * width + column) as usize] = radiance;
+            }
+        }
+    }
+    Some(walk.batch)
+}
+
 struct Walk<'a> {
     world: &'a World,
     plan: &'a Plan,
     batch: CameraBatch,
     branches: ArrayVec<Branch, MAX_BRANCHES>,
-    /// Whether the present path leaves visible points.
-    gathers: bool,
+    /// Weight of the present path's visible points in their pixel; it leaves none if this is 0.
+    gather_weight: f32,
+}
+
+/// A path as far as the first surface.
+struct Start {
+    sampler: Sampler,
+    ray: Ray,
+    hit: Option<Hit>,
 }
 
 /// One way that a path from the camera goes on.
@@ -128,48 +163,69 @@ enum Last {
 }
 
 impl Walk<'_> {
-    /// All samples of an iteration for one pixel, and visible points for one of them.
-    fn sample_pixel(&mut self, pixel: u32, seed: u64, iteration: u64) {
+    /// All samples of an iteration for one pixel. Visible points, which are most of the work, are left by all of them
+    /// where they meet different surfaces, else by one of them for all.
+    fn sample_pixel(&mut self, pixel: u32, seed: u64, iteration: u64) -> Rgb {
         let samples = self.plan.camera_samples(iteration);
-        let count = samples.end - samples.start;
+        let starts: ArrayVec<Start, MAX_SAMPLES> =
+            samples.clone().take(MAX_SAMPLES).map(|index| self.start(pixel, seed, index)).collect();
+        let count = starts.len() as u64;
+        let surface = |start: &Start| start.hit.map(|hit| hit.primitive);
+        let on_an_edge = starts.iter().any(|start| surface(start) != surface(&starts[0]));
         // Another place in the sequence each time: every n-th point of it would keep to a part of the pixel.
-        let gathered = samples.start + sobol::mix64(u64::from(pixel) ^ sobol::mix64(iteration)) % count;
+        let chosen = sobol::mix64(u64::from(pixel) ^ sobol::mix64(iteration)) % count.max(1);
         let mut radiance = Rgb::ZERO;
-        for index in samples {
-            let mut sampler = Sampler::new(seed, self.plan.stream(Stream::Camera), u64::from(pixel), index);
-            self.gathers = index == gathered && self.plan.gathers();
-            radiance += self.trace_path(pixel, &mut sampler);
+        for (index, start) in (0..).zip(starts) {
+            self.gather_weight = match (self.plan.gathers(), on_an_edge) {
+                (false, _) => 0.0,
+                (true, true) => 1.0 / count as f32,
+                (true, false) => f32::from(index == chosen),
+            };
+            radiance += self.trace_path(pixel, start);
         }
         radiance /= count as f32;
-        if !radiance.is_finite() {
+        if radiance.is_finite() {
+            radiance
+        } else {
             self.batch.counters.dropped_samples += 1;
-            radiance = Rgb::ZERO;
+            Rgb::ZERO
         }
-        self.batch.radiance.push(radiance);
     }
 
-    fn trace_path(&mut self, pixel: u32, sampler: &mut Sampler) -> Rgb {
+    fn start(&mut self, pixel: u32, seed: u64, index: u64) -> Start {
+        let mut sampler = Sampler::new(seed, self.plan.stream(Stream::Camera), u64::from(pixel), index);
         let corner = DVec2::new(f64::from(pixel % self.plan.camera.width), f64::from(pixel / self.plan.camera.width));
-        self.branches.push(Branch {
-            ray: self.plan.camera.ray(corner + sampler.next_2d()),
+        let ray = self.plan.camera.ray(corner + sampler.next_2d());
+        Start { hit: self.closest_hit(&ray), sampler, ray }
+    }
+
+    fn closest_hit(&mut self, ray: &Ray) -> Option<Hit> {
+        self.batch.counters.rays += 1;
+        self.world.aggregate.closest_hit(ray)
+    }
+
+    fn trace_path(&mut self, pixel: u32, start: Start) -> Rgb {
+        let Start { mut sampler, ray, hit } = start;
+        let first = Branch {
+            ray,
             throughput: Rgb::ONE,
             media: Media::default(),
             bounces: 0,
             splits: 0,
             distance: 0.0,
             last: Last::Specular,
-        });
-        let mut radiance = Rgb::ZERO;
+        };
+        let mut radiance = self.follow(first, hit, pixel, &mut sampler);
         while let Some(branch) = self.branches.pop() {
-            radiance += self.follow(branch, pixel, sampler);
+            let hit = self.closest_hit(&branch.ray);
+            radiance += self.follow(branch, hit, pixel, &mut sampler);
         }
         radiance
     }
 
-    /// To the next surface; returns the light that the camera gets from it without photons.
-    fn follow(&mut self, mut branch: Branch, pixel: u32, sampler: &mut Sampler) -> Rgb {
-        self.batch.counters.rays += 1;
-        let Some(hit) = self.world.aggregate.closest_hit(&branch.ray) else {
+    /// At what the branch's ray hits; returns the light that the camera gets from it without photons.
+    fn follow(&mut self, mut branch: Branch, hit: Option<Hit>, pixel: u32, sampler: &mut Sampler) -> Rgb {
+        let Some(hit) = hit else {
             return branch.throughput * self.world.background;
         };
         let point = self.world.surface_point(&branch.ray, hit);
@@ -190,7 +246,7 @@ impl Walk<'_> {
         let mut radiance = Rgb::ZERO;
         if scatters {
             radiance = branch.throughput * direct::direct_light(self.world, &vertex, sampler, &mut self.batch.counters);
-            if self.gathers {
+            if self.gather_weight > 0.0 {
                 self.batch.visible_points.push(self.visible_point(&branch, &vertex, pixel, object));
             }
         }
@@ -199,21 +255,35 @@ impl Walk<'_> {
     }
 
     fn visible_point(&self, branch: &Branch, vertex: &Vertex, pixel: u32, object: u32) -> VisiblePoint {
+        let footprint = self.plan.camera.footprint(branch.distance);
+        let clearance = self.clearance(&vertex.point, object, self.plan.wanted_clearance(footprint));
         VisiblePoint {
             pixel,
+            clearance: clearance as f32,
             position: (vertex.point.position - self.world.center).as_vec3(),
             n_side: vertex.n_side.as_vec3(),
             n_shade: vertex.n_shade.as_vec3(),
             wo: vertex.wo.as_vec3(),
-            throughput: branch.throughput,
+            throughput: branch.throughput * self.gather_weight,
             scattering: vertex.scattering,
-            footprint: self.plan.camera.footprint(branch.distance) as f32,
+            footprint: footprint as f32,
             primitive: vertex.point.hit.primitive,
             uv: DVec2::new(vertex.point.hit.u, vertex.point.hit.v),
             tag: photon::tag(object, vertex.point.front, 0),
             photon_bounces: (self.world.max_bounces - branch.bounces - 1).min(photon::MAX_TAG_BOUNCES),
             seen_directly: branch.bounces == 0,
         }
+    }
+
+    /// How far the next object is, `limit` at most; 0 on a patch, whose own curves are near.
+    fn clearance(&self, point: &SurfacePoint, object: u32, limit: f64) -> f64 {
+        let primitives = self.world.aggregate.primitives();
+        if self.plan.global_paths.is_empty() || matches!(primitives[point.hit.primitive as usize], Primitive::Patch(_))
+        {
+            return 0.0;
+        }
+        let is_own = |surface: &Surface| matches!(surface, Surface::Object { object: other, .. } if *other == object);
+        self.world.aggregate.distance(point.position, limit, |p| !is_own(&self.world.surfaces[p as usize]))
     }
 
     /// Continues along mirrors, glass and Phong lobes.

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 /// Visible points of one piece of the pass.
 const POINTS_PER_BLOCK: usize = 1024;
 /// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
-const MAX_PART_OF_SPHERE: f64 = 0.3;
+const MAX_PART_OF_SPHERE: f64 = 0.22;
 
 /// The maps of an iteration.
 #[derive(Clone, Debug, Default)]
@@ -76,18 +76,20 @@ impl Gatherer<'_> {
     #[inline(always)]
     fn at<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack, counters: &mut Counters) -> Rgb {
         let mut radiance = Rgb::ZERO;
+        let footprint = f64::from(point.footprint);
         let caustics_here = !point.seen_directly || self.plan.gathers_visible_caustics(self.iteration);
         if caustics_here && !self.maps.caustic.is_empty() {
             counters.caustic_gathers += 1;
-            radiance += self.estimate(l, &self.maps.caustic, stack, point, self.plan.caustic_radius, true);
+            radiance += self.estimate(l, &self.maps.caustic, stack, point, self.plan.caustic_radius * footprint, true);
         }
         if !self.maps.global.is_empty() && point.scattering.albedo != Rgb::ZERO {
             counters.global_gathers += 1;
-            radiance += self.estimate(l, &self.maps.global, stack, point, self.plan.global_radius, false);
+            let radius = self.plan.global_radius_at(footprint, f64::from(point.clearance));
+            radiance += self.estimate(l, &self.maps.global, stack, point, radius, false);
         }
         if !self.maps.focused.is_empty() && point.scattering.albedo != Rgb::ZERO {
             counters.global_gathers += 1;
-            radiance += self.estimate(l, &self.maps.focused, stack, point, self.plan.focused_radius, false);
+            radiance += self.estimate(l, &self.maps.focused, stack, point, self.plan.focused_radius * footprint, false);
         }
         if radiance.is_finite() {
             radiance
@@ -106,15 +108,15 @@ impl Gatherer<'_> {
         map: &PhotonMap,
         stack: &mut Stack,
         point: &VisiblePoint,
-        pixels: f64,
+        unshrunk_radius: f64,
         with_lobe: bool,
     ) -> Rgb {
         let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
         let limit =
             if let Primitive::Sphere(sphere) = primitive { MAX_PART_OF_SPHERE * sphere.radius } else { f64::MAX };
         let largest = self.plan.largest_radius * self.world.radius;
-        let first = pixels * f64::from(point.footprint);
-        let radius = (first * self.plan.shrink(self.iteration)).clamp(1e-6 * self.world.radius, largest).min(limit);
+        let radius = unshrunk_radius * self.plan.shrink(self.iteration);
+        let radius = radius.clamp(1e-6 * self.world.radius, largest).min(limit);
         let query = Query {
             position: point.position,
             normal: point.n_side,

@@ -30,8 +30,10 @@ pub struct Plan {
     pub global_paths: Vec<u64>,
     /// Radius of the density estimate of caustics after one full iteration, pixels' footprints.
     pub caustic_radius: f64,
-    /// The same for interreflection.
+    /// The same for interreflection, where nothing is near.
     pub global_radius: f64,
+    /// The same where another object is at hand.
+    pub least_global_radius: f64,
     /// The same for interreflection that mirrors or glass focused.
     pub focused_radius: f64,
     /// The largest radius, parts of the world's radius.
@@ -62,6 +64,8 @@ const GLOBAL_PATHS_PER_PIXEL: f64 = 4.0;
 const CAMERA_SAMPLES: f64 = 4.0;
 /// Paths for caustics in a full iteration, for each pixel.
 const CAUSTIC_PATHS_PER_PIXEL: f64 = 2.0;
+/// Radii for interreflection are at most this part of the distance to the next object.
+const PART_OF_CLEARANCE: f64 = 0.5;
 const LEAST_PATHS: f64 = 16_384.0;
 /// More would make an iteration last longer than a user waits for the next frame.
 const MOST_PATHS: f64 = 524_288.0;
@@ -85,9 +89,10 @@ impl Plan {
             caustics,
             global_paths,
             caustic_radius: 2.0,
-            global_radius: 12.0,
+            global_radius: 24.0,
+            least_global_radius: 10.0,
             focused_radius: 6.0,
-            largest_radius: 0.07,
+            largest_radius: 0.15,
             notes: notes.0,
             is_draft: false,
         }
@@ -108,11 +113,24 @@ impl Plan {
             camera,
             caustics,
             global_paths: fewer(&self.global_paths, (0.25 * pixels).clamp(1024.0, 8192.0)),
+            least_global_radius: 12.0,
             global_radius: 12.0,
             largest_radius: 0.2,
             is_draft: true,
             ..self.clone()
         }
+    }
+
+    /// The radius for interreflection after one full iteration at a point with this footprint and this distance to the
+    /// next object, scene units: light from near objects changes within a part of their distance.
+    pub(super) fn global_radius_at(&self, footprint: f64, clearance: f64) -> f64 {
+        let (least, most) = (self.least_global_radius * footprint, self.global_radius * footprint);
+        (PART_OF_CLEARANCE * clearance).clamp(least, most)
+    }
+
+    /// The distance from which on other objects do not matter for the radius.
+    pub(super) fn wanted_clearance(&self, footprint: f64) -> f64 {
+        self.global_radius * footprint / PART_OF_CLEARANCE
     }
 
     /// Whether caustics that the camera sees directly come from the map in this iteration.

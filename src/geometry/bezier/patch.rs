@@ -69,6 +69,18 @@ impl Patch {
         self.unit_map.ray(ray).is_some_and(|ray| has_hit(&self.prepared, ray))
     }
 
+    /// How far a point is from boxes that hold the patch closely, or `limit` if that is less.
+    pub fn distance(&self, point: DVec3, limit: f64) -> f64 {
+        let far = self.bounds().distance(point);
+        if far >= limit {
+            return limit;
+        }
+        far.max(
+            self.prepared.tree.distance(self.unit_map.point(point), limit * self.unit_map.scale())
+                / self.unit_map.scale(),
+        )
+    }
+
     /// The unit geometric normal `dS/du x dS/dv`; its limit on collapsed edges, equal rows and cusps. Never NaN.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
         unit_normal(&self.prepared.net, u, v)

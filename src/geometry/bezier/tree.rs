@@ -6,6 +6,7 @@ use super::packet::{Packet, PacketRay};
 use super::paraboloid::{MARGIN, Paraboloid, ROUNDING};
 use crate::math::Aabb;
 use crate::math::float::{round_down, round_up};
+use glam::DVec3;
 use std::array::from_fn;
 use std::collections::BinaryHeap;
 use wide::f32x4;
@@ -81,6 +82,23 @@ impl PartTree {
         } else {
             Target::Node(&self.nodes[link.0 as usize])
         }
+    }
+
+    /// How far a point is from the boxes around the parts, or `limit` if that is less; 0 where there is one box only.
+    pub(super) fn distance(&self, point: DVec3, limit: f64) -> f64 {
+        let mut nearest = if self.nodes.is_empty() { 0.0 } else { limit };
+        let mut open = vec![self.root()];
+        while let Some(link) = open.pop() {
+            let Target::Node(node) = self.follow(link) else { continue };
+            for (slot, distance) in node.distances(point).into_iter().enumerate() {
+                match node.children[slot] {
+                    Link(child) if child & PACKET_BIT != 0 => nearest = nearest.min(distance),
+                    link if distance < nearest => open.push(link),
+                    _ => {}
+                }
+            }
+        }
+        nearest
     }
 
     /// Memory on the heap.
@@ -213,6 +231,16 @@ impl Node {
             far = far.fast_min(low.fast_max(high));
         }
         (near.simd_le(far).to_bitmask(), near.to_array())
+    }
+
+    /// How far a point is from each box; infinite where there is none.
+    fn distances(&self, point: DVec3) -> [f64; 4] {
+        let outside = |axis: usize| {
+            let x = f32x4::splat(point[axis] as f32);
+            (self.low[axis] - x).max(x - self.high[axis]).max(f32x4::ZERO)
+        };
+        let [x, y, z] = [0, 1, 2].map(outside);
+        (x * x + y * y + z * z).sqrt().to_array().map(f64::from)
     }
 
     /// Child k.

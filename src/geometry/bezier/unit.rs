@@ -18,6 +18,11 @@ impl UnitMap {
         Self { center, scale: 2f64.powi(-exponent) }
     }
 
+    /// Unit space over scene space.
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
+    }
+
     /// A point of scene space in unit space.
     pub(super) fn point(&self, p: DVec3) -> DVec3 {
         (p - self.center) * self.scale

@@ -300,12 +300,12 @@ impl<L: Lanes> WideQuery<L> {
         let (min, size) = (load3(l, &node.min), sub3(l, load3(l, &node.max), load3(l, &node.min)));
         let offset = sub3(l, mul_add3(l, l.splat(0.5), size, min), self.position);
         let offset_sq = l.dot(offset, offset);
-        for channel in 0..3 {
+        for (channel, total) in sums.iter_mut().enumerate() {
             let flux = l.load(&moments.flux[channel]);
             let along = l.dot(load3(l, &moments.first[channel]), offset);
             let squares = l.mul_add(flux, offset_sq, l.add(l.load(&moments.second[channel]), l.add(along, along)));
             let sum = l.sub(flux, l.mul(squares, self.inverse_radius_sq));
-            sums[channel] = l.add(sums[channel], l.and(children, sum));
+            *total = l.add(*total, l.and(children, sum));
         }
     }
 
