@@ -110,17 +110,15 @@ impl Session {
         self.frame_of(generation, image, self.film.iterations(), self.stats())
     }
 
-    /// A quick first picture of every `coarseness`-th pixel each way; leaves the film as it is.
-    pub fn draft(&self, generation: u64, coarseness: u32) -> Frame {
+    /// A quick picture of every `coarseness`-th pixel each way; leaves the film as it is. `None` when cancelled.
+    pub fn draft(&self, generation: u64, coarseness: u32, cancel: Cancel) -> Option<Frame> {
         let start = Instant::now();
         let plan = self.plan.draft(coarseness);
         let (width, height) = (plan.camera.width, plan.camera.height);
-        let Some(drawn) = render_iteration(&self.world, &plan, self.seed, 1, Cancel::NEVER) else {
-            return self.frame(generation);
-        };
+        let drawn = render_iteration(&self.world, &plan, self.seed, 1, cancel)?;
         let stats = stats(&drawn.counters, drawn.seconds, start.elapsed().as_secs_f64());
         let image = LinearImage { width, height, pixels: drawn.radiance };
-        Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) }
+        Some(Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) })
     }
 
     /// How the picture came about so far.

@@ -86,6 +86,7 @@ impl Engine {
             current: None,
             session: None,
             coarseness: 4.0,
+            next_draft: 0,
             last_frame: None,
         };
         let thread = std::thread::Builder::new().name("engine".to_owned()).spawn(move || worker.run())?;
@@ -156,8 +157,10 @@ struct Worker {
     seed: u64,
     current: Option<(u64, Arc<SceneFile>)>,
     session: Option<Session>,
-    /// Of the next draft, from how long the last one took.
+    /// Of the next first draft, from how long the last one took.
     coarseness: f64,
+    /// Of the next draft of the present scene; 1 or less when iterations are due.
+    next_draft: u32,
     last_frame: Option<Instant>,
 }
 
@@ -211,11 +214,13 @@ impl Worker {
         let session = self.pool.install(|| Session::prepare(&scene, self.seed, previous.as_ref()))?;
         let start = Instant::now();
         let coarseness = self.coarseness.round().max(1.0);
-        let draft = self.pool.install(|| session.draft(generation, coarseness as u32));
+        // Never cancelled: else a fast drag would show nothing.
+        let draft = self.pool.install(|| session.draft(generation, coarseness as u32, Cancel::NEVER));
         // Time goes with the number of pixels, the square of the coarseness; half a step at a time, for calm.
         let wanted = coarseness * (start.elapsed().as_secs_f64() / DRAFT_SECONDS).sqrt();
         self.coarseness = (0.5 * (self.coarseness + wanted)).clamp(1.0, COARSEST_DRAFT);
-        self.shared.publish(draft);
+        self.next_draft = coarseness as u32 / 2;
+        draft.into_iter().for_each(|draft| self.shared.publish(draft));
         self.session = Some(session);
         self.last_frame = None;
         Ok(())
@@ -225,6 +230,13 @@ impl Worker {
         let (Some((generation, _)), Some(session)) = (&self.current, &mut self.session) else { return Ok(()) };
         let (generation, shared) = (*generation, &self.shared);
         let outdated = move || shared.is_outdated(generation);
+        if self.next_draft > 1 {
+            // Finer and finer drafts bridge the time that the first iteration takes.
+            let draft = self.pool.install(|| session.draft(generation, self.next_draft, Cancel::when(&outdated)));
+            self.next_draft /= 2;
+            draft.into_iter().for_each(|draft| self.shared.publish(draft));
+            return Ok(());
+        }
         let advanced = self.pool.install(|| session.advance(Cancel::when(&outdated)));
         if advanced.is_some() && self.last_frame.is_none_or(|at| at.elapsed() >= FRAME_INTERVAL) {
             self.publish_if(|_| true);

@@ -23,10 +23,13 @@ pub(super) struct TextureKey {
 impl TextureKey {
     /// Reads and decodes the file.
     pub(super) fn decode(&self) -> Result<Image, PrepareError> {
-        let picture = self.location.read_picture(&self.file).map_err(PrepareError::Texture)?.into_rgb32f();
+        // 16 bits hold 8 exactly: 257 times the value is the same part of the whole.
+        let picture = self.location.read_picture(&self.file).map_err(PrepareError::Texture)?.into_rgb16();
         let (width, height) = (picture.width() as usize, picture.height() as usize);
-        let decode = |c: f32| if self.linear { c } else { linear_from_srgb(c) };
-        let texels = picture.pixels().map(|p| Rgb::from_array(p.0.map(decode))).collect();
+        let part = |k: u16| f32::from(k) / f32::from(u16::MAX);
+        let meaning = |k: u16| if self.linear { part(k) } else { linear_from_srgb(part(k)) };
+        let decoded: Vec<f32> = (0..=u16::MAX).map(meaning).collect();
+        let texels = picture.pixels().map(|p| Rgb::from_array(p.0.map(|k| decoded[usize::from(k)]))).collect();
         Ok(Image { width, height, texels })
     }
 }
@@ -67,8 +70,9 @@ impl Image {
     /// Columns and rows around (u, v), with the weights of the second ones.
     fn neighbours(&self, uv: DVec2) -> ((usize, usize, f32), (usize, usize, f32)) {
         let around = |x: f64, n: usize| {
-            // Repeated first, so that no coordinate is too large; rem_euclid may round up to n itself.
-            let x = (x.rem_euclid(1.0) * n as f64 - 0.5).rem_euclid(n as f64);
+            // Repeated first, so that no coordinate is too large; the difference may round up to 1 itself.
+            let x = (x - x.floor()) * n as f64 - 0.5;
+            let x = if x < 0.0 { x + n as f64 } else { x };
             let low = (x as usize).min(n - 1);
             (low, (low + 1) % n, (x - low as f64) as f32)
         };

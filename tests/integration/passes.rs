@@ -108,7 +108,7 @@ fn a_cancelled_iteration_leaves_nothing() {
 fn a_draft_changes_nothing_and_resembles_the_picture() {
     let session = session(MIXED, 32);
     let before = session.film().clone();
-    let draft = session.draft(7, 2);
+    let draft = session.draft(7, 2, Cancel::NEVER).expect("nobody cancels");
     assert_eq!(*session.film(), before);
     assert!(draft.draft && draft.generation == 7 && draft.iteration == 0);
     assert_eq!((draft.image.width, draft.image.height), (20, 15));
