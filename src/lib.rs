@@ -19,7 +19,7 @@
 //!                                                             |        ▼
 //!                                                             |   Plan: what is needed, what is skipped, why
 //!                                                             |        ▼
-//!                                                             |   a draft, never cancelled, then iterations 1, 2, ...
+//!                                                             |   a draft, never cancelled, then finer ones, then 1, 2, ...
 //!                                                             |   ┌─ iteration i ───────────────────────────────┐
 //!                                                             |   │ photon passes ─► caustic, global photons    │
 //!                                                             |   │ photon map    ─► kd-trees                   │
@@ -78,6 +78,9 @@
 //! | `n_geom`, `n_side`, `n_shade` | unit normal of the front; of the side at hand; as tilted by a relief map |
 //! | `eta` | index of refraction behind an interface over the index in front of it |
 //! | footprint | side of a pixel, projected to a distance |
+//! | clearance | distance from a visible point to the next object: interreflection changes within a part of it |
+//! | focused | of photons: sent on by mirrors or glass after they were scattered |
+//! | lanes | numbers that one vector instruction handles side by side |
 //! | control net | the 4 x 4 control points of a patch; `dpdu`, `dpdv` are the surface's derivatives |
 //! | specular | going on in one direction: mirrors and glass; *glossy*: a Phong lobe |
 //! | caustic | light that met mirrors or glass only, between the light and the visible point |
@@ -98,6 +101,7 @@
 //! - \[LaineKarras11\] S. Laine, T. Karras, Stratified Sampling for Stochastic Transparency, EGSR 2011.
 //! - \[Reinhard02\] E. Reinhard et al., Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002.
 //! - \[ShirleyChiu97\] P. Shirley, K. Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997.
+//! - \[Ward88\] G. Ward, F. Rubinstein, R. Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988.
 //! - \[Veach97\] E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, Stanford, 1997.
 
 #[cfg(feature = "gui")]

@@ -44,6 +44,7 @@ pub struct Sampler {
     seed: u32,
     set: u32,
     used: usize,
+    /// With the bits in reverse order.
     point: [u32; 4],
 }
 
@@ -66,7 +67,7 @@ impl Sampler {
         }
         let x = self.point[self.used];
         self.used += 1;
-        unit_from_bits(x)
+        unit_from_bits(x.reverse_bits())
     }
 
     /// The next two coordinates of one set: well distributed together.
@@ -86,7 +87,7 @@ impl Sampler {
 
     fn load_set(&mut self) {
         let set_seed = hash32(self.seed ^ hash32(self.set));
-        let shuffled = owen_scramble(self.index, set_seed);
+        let shuffled = owen_scramble(self.index.reverse_bits(), set_seed);
         for (dimension, x) in self.point.iter_mut().enumerate() {
             let key = hash32(set_seed ^ (dimension as u32 + 1).wrapping_mul(0x9e37_79b9));
             *x = owen_scramble(sobol_bits(shuffled, dimension), key);
@@ -113,25 +114,27 @@ fn unit_from_bits(bits: u32) -> f64 {
     (f64::from(bits) + 0.5) * 2f64.powi(-32)
 }
 
-/// Owen's nested uniform scramble by a hash in which low bits drive high bits only \[LaineKarras11\].
+/// Owen's nested uniform scramble by a hash in which low bits drive high bits only \[LaineKarras11\], of numbers with
+/// their bits in reverse order.
 fn owen_scramble(x: u32, seed: u32) -> u32 {
-    let mut x = x.reverse_bits();
+    let mut x = x;
     x ^= x.wrapping_mul(0x3d20_adea);
     x = x.wrapping_add(seed);
     x = x.wrapping_mul((seed >> 16) | 1);
     x ^= x.wrapping_mul(0x0552_6c56);
     x ^= x.wrapping_mul(0x53a2_2864);
-    x.reverse_bits()
+    x
 }
 
-/// Coordinate `dimension` (0 to 3) of Sobol point `index`, as a binary fraction of 32 bits.
-fn sobol_bits(index: u32, dimension: usize) -> u32 {
+/// Coordinate `dimension` (0 to 3) of a Sobol point as a binary fraction of 32 bits. It and the index have their bits in
+/// reverse order.
+fn sobol_bits(reversed_index: u32, dimension: usize) -> u32 {
     let table = &SOBOL_BYTES[dimension];
-    let [a, b, c, d] = index.to_le_bytes();
+    let [a, b, c, d] = reversed_index.to_le_bytes();
     table[0][a as usize] ^ table[1][b as usize] ^ table[2][c as usize] ^ table[3][d as usize]
 }
 
-/// For each dimension and each byte of the index, the XOR of the direction numbers of its bits.
+/// For each dimension and each byte of the index, the XOR of the direction numbers of its bits, all in reverse order.
 static SOBOL_BYTES: [[[u32; 256]; 4]; 4] = sobol_bytes();
 
 const fn sobol_bytes() -> [[[u32; 256]; 4]; 4] {
@@ -148,7 +151,7 @@ const fn sobol_bytes() -> [[[u32; 256]; 4]; 4] {
         let mut bit = 0;
         while bit < 8 {
             if value >> bit & 1 == 1 {
-                tables[dimension][byte][value] ^= directions[dimension][8 * byte + bit];
+                tables[dimension][byte][value] ^= directions[dimension][31 - (8 * byte + bit)].reverse_bits();
             }
             bit += 1;
         }

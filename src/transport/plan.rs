@@ -122,7 +122,7 @@ impl Plan {
     }
 
     /// The radius for interreflection after one full iteration at a point with this footprint and this distance to the
-    /// next object, scene units: light from near objects changes within a part of their distance.
+    /// next object, scene units: light from near objects changes within a part of their distance \[Ward88\].
     pub(super) fn global_radius_at(&self, footprint: f64, clearance: f64) -> f64 {
         let (least, most) = (self.least_global_radius * footprint, self.global_radius * footprint);
         (PART_OF_CLEARANCE * clearance).clamp(least, most)
