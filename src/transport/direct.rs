@@ -2,6 +2,7 @@
 
 use super::bsdf;
 use super::counters::Counters;
+use super::light_choice::{self, CHOSEN};
 use crate::geometry::Sphere;
 use crate::math::{Frame, Ray, Rgb, Sampler, warp};
 use crate::world::{Light, Scattering, SurfacePoint, World};
@@ -34,7 +35,13 @@ const NEAREST: f64 = 1e-4;
 
 /// Radiance towards `wo` of light that comes straight from the lights.
 pub(super) fn direct_light(world: &World, vertex: &Vertex, sampler: &mut Sampler, counters: &mut Counters) -> Rgb {
-    world.lights.iter().map(|light| one_light(world, light, vertex, sampler, counters)).sum()
+    let mut radiance = Rgb::ZERO;
+    // Drawn only where there is something to choose.
+    let u = if world.lights.len() > CHOSEN { sampler.next_1d() } else { 0.0 };
+    light_choice::choose(&world.lights, vertex, u, |light, factor| {
+        radiance += factor * one_light(world, light, vertex, sampler, counters);
+    });
+    radiance
 }
 
 fn one_light(world: &World, light: &Light, vertex: &Vertex, sampler: &mut Sampler, counters: &mut Counters) -> Rgb {

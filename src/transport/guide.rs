@@ -10,8 +10,10 @@ use std::f64::consts::PI;
 
 /// Cells along a side of the square of directions.
 const SIDE: usize = 64;
-/// Rays that look into a cell.
+/// Rays that look into a cell: one in each quarter, or one alone where there are many lights to look from.
 const PROBES: u64 = 4;
+/// Lights that count as many.
+const MANY_LIGHTS: usize = 8;
 /// Part of the paths that go where no specular surface was seen, in case the probes missed one.
 const DEFENSIVE_PART: f64 = 0.03;
 
@@ -29,10 +31,11 @@ pub struct Guide {
 impl Guide {
     /// The guide for a light, from rays that look for specular surfaces in every cell.
     pub(super) fn build(world: &World, light: &Light, light_index: u64) -> Self {
+        let probes = if world.lights.len() > MANY_LIGHTS { 1 } else { PROBES };
         let seen: Vec<bool> = (0..SIDE * SIDE)
             .into_par_iter()
             .with_min_len(64)
-            .map(|cell| (0..PROBES).any(|probe| probe_hits_specular(world, light, light_index, cell, probe)))
+            .map(|cell| (0..probes).any(|probe| probe_hits_specular(world, light, light_index, cell, probe, probes)))
             .collect();
         let mut wanted = dilated(&seen);
         for cell in cells_of_small_objects(world, light) {
@@ -90,13 +93,13 @@ fn invert(cumulated: &[f64], x: f64) -> (usize, f64, f64) {
     (index, ((x - cumulated[index]) / probability).clamp(0.0, 1.0), probability)
 }
 
-fn probe_hits_specular(world: &World, light: &Light, light_index: u64, cell: usize, probe: u64) -> bool {
+fn probe_hits_specular(world: &World, light: &Light, light_index: u64, cell: usize, probe: u64, probes: u64) -> bool {
     let index = cell as u64 * PROBES + probe;
     let mut sampler = Sampler::new(0, Stream::Probe, light_index, index);
     let origin = emission::origin(light, &mut sampler);
-    // One probe in each quarter of the cell, jittered.
     let quarter = DVec2::new((probe & 1) as f64, (probe >> 1 & 1) as f64);
-    let within = 0.5 * (quarter + sampler.next_2d());
+    let jitter = sampler.next_2d();
+    let within = if probes == 1 { jitter } else { 0.5 * (quarter + jitter) };
     let corner = DVec2::new((cell % SIDE) as f64, (cell / SIDE) as f64);
     let direction = octahedral::direction_from_square((corner + within) / SIDE as f64);
     if origin.normal.is_some_and(|normal| normal.dot(direction) <= 0.0) {

@@ -23,6 +23,7 @@ mod emission;
 mod gather;
 mod guide;
 mod kernel;
+mod light_choice;
 mod medium;
 mod morton;
 mod photon;

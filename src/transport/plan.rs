@@ -1,6 +1,7 @@
 //! What a scene needs, decided before rendering, and why the rest is skipped.
 
 use super::guide::Guide;
+use super::light_choice::CHOSEN;
 use super::schedule::{self, SMALLEST};
 use crate::geometry::Primitive;
 use crate::math::{Rgb, Stream};
@@ -304,9 +305,11 @@ impl Notes {
         } else if !shows(world, |_, _| true) {
             self.skip(WHAT, "there is no surface to light");
         } else {
-            let one = "1 light, one shadow ray for each point".to_owned();
-            let lights = world.lights.len();
-            let reason = if lights == 1 { one } else { format!("{lights} lights, one shadow ray each") };
+            let reason = match world.lights.len() {
+                1 => "1 light, one shadow ray for each point".to_owned(),
+                few if few <= CHOSEN => format!("{few} lights, one shadow ray each"),
+                many => format!("{many} lights; each point asks {CHOSEN}, chosen by their share of its light"),
+            };
             self.render("direct light", reason);
             return true;
         }

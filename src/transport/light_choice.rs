@@ -1,0 +1,129 @@
+//! Which lights a point asks for direct light where there are many: few shadow rays, each for a light that probably
+//! matters, at a cost per light that is far below a ray's.
+
+use super::direct::Vertex;
+use crate::math::Rgb;
+use crate::world::Light;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// So many lights or fewer are all asked; of more, so many are chosen.
+pub(super) const CHOSEN: usize = 8;
+
+/// Calls `ask(light, factor)` for all of few lights, with the factor 1; of many, for [`CHOSEN`] (perhaps one of them
+/// several times) with factors that make up for the others in the mean.
+///
+/// The choice is systematic resampling: equal steps from the random number `u` through the sum of the lights' expected
+/// shares, so that a light with more than a step is asked for sure.
+pub(super) fn choose(lights: &[Light], vertex: &Vertex, u: f64, mut ask: impl FnMut(&Light, f32)) {
+    if lights.len() <= CHOSEN {
+        return lights.iter().for_each(|light| ask(light, 1.0));
+    }
+    let shares: Vec<f64> = lights.iter().map(|light| expected_share(light, vertex)).collect();
+    let step = shares.iter().sum::<f64>() / CHOSEN as f64;
+    let mut next = u * step;
+    let mut passed = 0.0;
+    for (light, share) in lights.iter().zip(shares) {
+        passed += share;
+        // Written so that shares that are all 0, or not numbers, choose none.
+        while next < passed {
+            ask(light, (step / share) as f32);
+            next += step;
+        }
+    }
+}
+
+/// About how much light a point gets from a light if nothing is between; 0 only where it gets none.
+fn expected_share(light: &Light, vertex: &Vertex) -> f64 {
+    let from = vertex.point.position;
+    let strength = |c: Rgb| f64::from(c.max_element());
+    match light {
+        Light::Point { position, intensity } => strength(*intensity) * received(vertex, *position - from, 0.0),
+        Light::Sphere { sphere, radiance } => {
+            let area = PI * sphere.radius * sphere.radius;
+            strength(*radiance) * area * received(vertex, sphere.center - from, sphere.radius)
+        }
+        Light::Quad { quad, radiance } => {
+            let (center, edges) = (quad.position(0.5, 0.5), quad.edges());
+            let reach = 0.5 * (edges.0.length() + edges.1.length());
+            let offset = center - from;
+            let cos_light = -offset.dot(quad.normal()) / offset.length();
+            if cos_light > 0.0 { strength(*radiance) * quad.area() * received(vertex, offset, reach) } else { 0.0 }
+        }
+    }
+}
+
+/// Inverse squared distance times about the cosine, of light from a ball of this radius at this offset; 0 only where the
+/// ball is below the horizon.
+fn received(vertex: &Vertex, offset: DVec3, radius: f64) -> f64 {
+    /// Of the full cosine: a tilted shading normal may see what the surface hardly does.
+    const LEAST: f64 = 0.1;
+    let distance = offset.length().max(f64::MIN_POSITIVE);
+    let highest = (offset.dot(vertex.n_side) + radius) / distance;
+    if highest > 0.0 { highest.clamp(LEAST, 1.0) / (distance * distance).max(0.25 * radius * radius) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Hit, Quad, Sphere};
+    use crate::math::{Sampler, Stream, warp};
+    use crate::world::{Lobe, Scattering, SurfacePoint};
+
+    fn vertex() -> Vertex {
+        let hit = Hit { t: 1.0, primitive: 0, u: 0.5, v: 0.5 };
+        let point = SurfacePoint { position: DVec3::ZERO, n_geom: DVec3::Y, front: true, hit };
+        let scattering = Scattering { albedo: Rgb::ONE, lobe: Lobe::None };
+        Vertex { point, scattering, n_side: DVec3::Y, n_shade: DVec3::Y, wo: DVec3::Y }
+    }
+
+    fn lights(count: u64) -> Vec<Light> {
+        let light = |k: u64| {
+            let mut s = Sampler::new(3, Stream::Test, 1, k);
+            let position = (0.2 + 5.0 * s.next_1d()) * warp::uniform_sphere(s.next_2d());
+            let strength = Rgb::splat(s.next_1d().powi(4) as f32 + 1e-3);
+            match k % 3 {
+                0 => Light::Point { position, intensity: strength },
+                1 => Light::Sphere { sphere: Sphere { center: position, radius: 0.05 }, radiance: strength },
+                _ => Light::Quad { quad: Quad::new(position, 0.2 * DVec3::X, 0.3 * DVec3::Z), radiance: strength },
+            }
+        };
+        (0..count).map(light).collect()
+    }
+
+    /// Each light's factors average to 1 wherever it gives light at all.
+    #[test]
+    fn the_mean_is_all_lights() {
+        let (vertex, lights) = (vertex(), lights(100));
+        let rounds = 20_000;
+        let mut sums = vec![0.0; lights.len()];
+        for round in 0..rounds {
+            let u = (f64::from(round) + 0.5) / f64::from(rounds);
+            let mut asked = 0;
+            choose(&lights, &vertex, u, |light, factor| {
+                asked += 1;
+                let index = lights.iter().position(|other| std::ptr::eq(other, light)).expect("one of them");
+                sums[index] += f64::from(factor) / f64::from(rounds);
+            });
+            assert!(asked == CHOSEN || asked == CHOSEN - 1, "{asked}: the last step may fall off by rounding");
+        }
+        let shares: Vec<f64> = lights.iter().map(|light| expected_share(light, &vertex)).collect();
+        let step = shares.iter().sum::<f64>() / CHOSEN as f64;
+        for ((light, sum), share) in lights.iter().zip(sums).zip(shares) {
+            let expected = if share > 0.0 { 1.0 } else { 0.0 };
+            // A light is asked in one interval of u, whose length the rounds know to one of them at each end.
+            let tolerance = if share > 0.0 { 2.0 * step / share / f64::from(rounds) + 1e-6 } else { 0.0 };
+            assert!((sum - expected).abs() <= tolerance, "{sum} for {light:?} of share {share}");
+        }
+    }
+
+    #[test]
+    fn few_are_all_asked() {
+        let mut asked = 0;
+        choose(&lights(CHOSEN as u64), &vertex(), 0.5, |_, factor| {
+            assert_eq!(factor, 1.0);
+            asked += 1;
+        });
+        assert_eq!(asked, CHOSEN);
+    }
+}
