@@ -89,7 +89,7 @@ pub(crate) fn tone_curve_ui(ui: &mut Ui, film: &mut Film) {
 
 fn render_ui(ui: &mut Ui, render: &mut Render) {
     ui.label("Bounces");
-    let field = DragValue::new(&mut render.max_bounces).range(1..=1000).speed(0.1).update_while_editing(false);
+    let field = DragValue::new(&mut render.max_bounces).range(1..=1024).speed(0.1).update_while_editing(false);
     ui.add(field)
         .accessible_name("Bounces")
         .on_hover_text("Scattering events on the longest path; 1 is direct light alone");
