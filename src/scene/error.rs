@@ -60,6 +60,9 @@ impl LocatedProblem {
     }
 }
 
+/// Problems that a message lists; more are only counted.
+const MOST_SHOWN: usize = 20;
+
 /// One line a problem, in the form that editors and terminals make a link of.
 fn lines(file: &str, problems: &[LocatedProblem]) -> String {
     struct Line<'a>(&'a str, &'a LocatedProblem);
@@ -68,7 +71,11 @@ fn lines(file: &str, problems: &[LocatedProblem]) -> String {
             write!(f, "{}:{}:{}: {}", self.0, self.1.line, self.1.column, self.1.problem)
         }
     }
-    problems.iter().map(|p| Line(file, p).to_string()).collect::<Vec<_>>().join("\n")
+    let mut lines: Vec<_> = problems.iter().take(MOST_SHOWN).map(|p| Line(file, p).to_string()).collect();
+    if problems.len() > MOST_SHOWN {
+        lines.push(format!("{file}: and {} more", problems.len() - MOST_SHOWN));
+    }
+    lines.join("\n")
 }
 
 #[cfg(test)]

@@ -115,8 +115,9 @@ impl Gatherer<'_> {
         let limit =
             if let Primitive::Sphere(sphere) = primitive { MAX_PART_OF_SPHERE * sphere.radius } else { f64::MAX };
         let largest = self.plan.largest_radius * self.world.radius;
-        let radius = unshrunk_radius * self.plan.shrink(self.iteration);
-        let radius = radius.clamp(1e-6 * self.world.radius, largest).min(limit);
+        // Limited before it shrinks, so that it shrinks everywhere: else bias would stay.
+        let radius = unshrunk_radius.min(largest).min(limit) * self.plan.shrink(self.iteration);
+        let radius = radius.max(1e-6 * self.world.radius);
         let query = Query {
             position: point.position,
             normal: point.n_side,

@@ -120,11 +120,7 @@ fn dilated(marked: &[bool]) -> Vec<bool> {
 
 /// Cells that point at specular primitives so small or so far that probes may miss them.
 fn cells_of_small_objects(world: &World, light: &Light) -> Vec<usize> {
-    let eye = match light {
-        Light::Point { position, .. } => *position,
-        Light::Sphere { sphere, .. } => sphere.center,
-        Light::Quad { quad, .. } => quad.position(0.5, 0.5),
-    };
+    let eye = light.center();
     let mut cells = Vec::new();
     for (index, primitive) in world.aggregate.primitives().iter().enumerate() {
         if matches!(primitive, Primitive::Plane(_)) || !world.is_specular(index as u32) {

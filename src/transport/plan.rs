@@ -209,25 +209,27 @@ fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
 }
 
 fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
-    let seen = shows(world, |world, p| (world.is_specular(p) || world.is_glossy(p)) && world.may_be_seen(p));
-    if seen {
-        notes.render(SEEN_INDIRECTLY, "a mirror, glass or glossy surface may be in view".to_owned());
-    } else {
+    let sends_on = |p: u32| shows_at(world, p) && (world.is_specular(p) || world.is_glossy(p));
+    let (all, seen) = (0..world.surfaces.len() as u32)
+        .filter(|&p| sends_on(p))
+        .fold((0, 0), |(all, seen), p| (all + 1, seen + usize::from(world.may_be_seen(p))));
+    if world.max_bounces < 3 {
+        notes.skip(SEEN_INDIRECTLY, "max_bounces leaves no path to a caustic that way");
+    } else if seen == 0 {
         notes.skip(SEEN_INDIRECTLY, "nothing in view mirrors or refracts: photons go straight to the film");
+    } else {
+        notes.render(SEEN_INDIRECTLY, format!("{seen} of {all} mirrors, glasses and glossy surfaces may be in view"));
     }
-    seen
+    seen > 0 && world.max_bounces >= 3
 }
 
 fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
     const WHAT: &str = "interreflection";
-    let scattering = (0..world.surfaces.len()).filter(|&p| world.scattered_bound(p as u32) > 0.0).count();
-    let is_curved = |primitive: &Primitive| matches!(primitive, Primitive::Sphere(_) | Primitive::Patch(_));
+    let scattering: Vec<u32> = (0..world.surfaces.len() as u32).filter(|&p| world.scattered_bound(p) > 0.0).collect();
     let needless = if world.max_bounces < 2 {
         Some("max_bounces leaves only direct light")
-    } else if scattering == 0 {
-        Some("no surface scatters light in many directions")
-    } else if world.surfaces.len() == 1 && !world.aggregate.primitives().iter().any(is_curved) {
-        Some("a single flat surface cannot light itself")
+    } else if scattering.iter().all(|&p| lights_nothing(world, p, scattering.len())) {
+        Some("the only surface that scatters light cannot light itself")
     } else {
         None
     };
@@ -235,11 +237,29 @@ fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
         notes.skip(WHAT, reason);
         return Vec::new();
     }
-    let surfaces =
-        if scattering == 1 { "1 surface scatters".to_owned() } else { format!("{scattering} surfaces scatter") };
-    notes.render(WHAT, format!("{surfaces} light to each other"));
+    notes.render(
+        WHAT,
+        match scattering.len() {
+            1 => "1 surface scatters light, and some of it comes back".to_owned(),
+            surfaces => format!("{surfaces} surfaces scatter light to each other"),
+        },
+    );
     let total = (world.camera.pixel_count() as f64 * GLOBAL_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
     share(world.lights.iter().map(power).collect(), total)
+}
+
+/// Whether no light that this surface scatters meets a surface that scatters: it is the only one, convex towards the
+/// lights, and no mirror or glass sends light back within the bounces.
+fn lights_nothing(world: &World, primitive: u32, scattering: usize) -> bool {
+    let sent_back = world.max_bounces >= 3 && (0..world.surfaces.len() as u32).any(|p| world.is_specular(p));
+    let is_convex = match &world.aggregate.primitives()[primitive as usize] {
+        Primitive::Quad(_) | Primitive::Plane(_) => true,
+        Primitive::Sphere(sphere) => {
+            world.lights.iter().all(|light| light.center().distance(sphere.center) > sphere.radius)
+        }
+        Primitive::Patch(_) => false,
+    };
+    scattering == 1 && is_convex && !sent_back
 }
 
 fn power(light: &Light) -> f64 {
@@ -255,8 +275,12 @@ fn share(weights: Vec<f64>, total: f64) -> Vec<u64> {
 }
 
 fn shows(world: &World, is_so: impl Fn(&World, u32) -> bool) -> bool {
-    (0..world.surfaces.len() as u32)
-        .any(|p| matches!(world.surfaces[p as usize], Surface::Object { .. }) && is_so(world, p))
+    (0..world.surfaces.len() as u32).any(|p| shows_at(world, p) && is_so(world, p))
+}
+
+/// Whether a primitive is an object's and not a light's.
+fn shows_at(world: &World, primitive: u32) -> bool {
+    matches!(world.surfaces[primitive as usize], Surface::Object { .. })
 }
 
 impl World {
@@ -304,6 +328,8 @@ impl Notes {
             self.skip(WHAT, "max_bounces is 0: only lights are seen");
         } else if !shows(world, |_, _| true) {
             self.skip(WHAT, "there is no surface to light");
+        } else if !shows(world, |world, p| world.scattered_bound(p) > 0.0) {
+            self.skip(WHAT, "no surface scatters light in many directions");
         } else {
             let reason = match world.lights.len() {
                 1 => "1 light, one shadow ray for each point".to_owned(),
@@ -326,7 +352,11 @@ impl Notes {
 
     fn background(&mut self, world: &World) {
         if world.background != Rgb::ZERO {
-            self.render("background", "rays that leave the scene see it; it lights nothing".to_owned());
+            self.render(
+                "background",
+                "the camera sees it, also in mirrors, glass and gloss; it sends no light to diffuse surfaces"
+                    .to_owned(),
+            );
         }
     }
 }

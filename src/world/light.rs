@@ -39,6 +39,15 @@ impl Light {
         }
     }
 
+    /// Its middle.
+    pub fn center(&self) -> DVec3 {
+        match self {
+            Self::Point { position, .. } => *position,
+            Self::Sphere { sphere, .. } => sphere.center,
+            Self::Quad { quad, .. } => quad.position(0.5, 0.5),
+        }
+    }
+
     /// Radiance towards `direction` from the surface of an area light with this outward or front normal.
     pub fn emitted(&self, n_geom: DVec3, direction: DVec3) -> Rgb {
         match self {
