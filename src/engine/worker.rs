@@ -172,7 +172,8 @@ impl Worker {
                 return;
             }
             if paused || self.session.is_none() {
-                if self.session.is_some() {
+                // Once: a call to wake up may be left from before.
+                if self.session.is_some() && self.shared.status() != Status::Paused {
                     self.publish_if(|iterations| iterations > 0);
                     self.shared.set_status(Status::Paused);
                 }
