@@ -1,5 +1,5 @@
 //! Eight numbers at a time: the vectors of AVX2 where the processor has them, found out at run time, else whatever
-//! the target always has.
+//! the target always has. (The crate `wide` alone decides when it is compiled, and so for half as many.)
 
 use wide::{f32x8, u32x8};
 

@@ -5,7 +5,7 @@ use super::counters::Counters;
 use super::direct::{self, Vertex};
 use super::medium::Media;
 use super::photon;
-use super::plan::Plan;
+use super::plan::{CAMERA_SAMPLES, Plan};
 use super::{Cancel, Rows};
 use crate::geometry::{Hit, Primitive};
 use crate::math::{Ray, Rgb, Sampler, Stream, sobol};
@@ -22,8 +22,6 @@ const WEAK_BRANCH: f32 = 0.02;
 const MAX_BRANCHES: usize = 16;
 /// Rows and columns of a tile.
 const TILE: u32 = 16;
-/// Samples of a pixel in an iteration at most.
-const MAX_SAMPLES: usize = 8;
 
 /// A point that the camera sees, directly or in mirrors and through glass, and that scatters light.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +42,7 @@ pub struct VisiblePoint {
     pub scattering: Scattering,
     /// Side of the pixel's footprint, scene units.
     pub footprint: f32,
-    /// How far the next object is, or more: light from near ones changes within a short way.
+    /// Distance to the next object, scene units, no more than matters for the radius of interreflection; 0 on a patch.
     pub clearance: f32,
     /// Where on which primitive.
     pub primitive: u32,
@@ -167,13 +165,13 @@ impl Walk<'_> {
     /// where they meet different surfaces, else by one of them for all.
     fn sample_pixel(&mut self, pixel: u32, seed: u64, iteration: u64) -> Rgb {
         let samples = self.plan.camera_samples(iteration);
-        let starts: ArrayVec<Start, MAX_SAMPLES> =
-            samples.clone().take(MAX_SAMPLES).map(|index| self.start(pixel, seed, index)).collect();
+        let starts: ArrayVec<Start, { CAMERA_SAMPLES as usize }> =
+            samples.map(|index| self.start(pixel, seed, index)).collect();
         let count = starts.len() as u64;
         let surface = |start: &Start| start.hit.map(|hit| hit.primitive);
         let on_an_edge = starts.iter().any(|start| surface(start) != surface(&starts[0]));
         // Another place in the sequence each time: every n-th point of it would keep to a part of the pixel.
-        let chosen = sobol::mix64(u64::from(pixel) ^ sobol::mix64(iteration)) % count.max(1);
+        let chosen = sobol::mix64(u64::from(pixel) ^ sobol::mix64(iteration)) % count;
         let mut radiance = Rgb::ZERO;
         for (index, start) in (0..).zip(starts) {
             self.gather_weight = match (self.plan.gathers(), on_an_edge) {
@@ -256,7 +254,8 @@ impl Walk<'_> {
 
     fn visible_point(&self, branch: &Branch, vertex: &Vertex, pixel: u32, object: u32) -> VisiblePoint {
         let footprint = self.plan.camera.footprint(branch.distance);
-        let clearance = self.clearance(&vertex.point, object, self.plan.wanted_clearance(footprint));
+        let wanted = self.plan.wanted_clearance(footprint);
+        let clearance = wanted.map_or(0.0, |limit| self.clearance(&vertex.point, object, limit));
         VisiblePoint {
             pixel,
             clearance: clearance as f32,
@@ -277,9 +276,7 @@ impl Walk<'_> {
 
     /// How far the next object is, `limit` at most; 0 on a patch, whose own curves are near.
     fn clearance(&self, point: &SurfacePoint, object: u32, limit: f64) -> f64 {
-        let primitives = self.world.aggregate.primitives();
-        if self.plan.global_paths.is_empty() || matches!(primitives[point.hit.primitive as usize], Primitive::Patch(_))
-        {
+        if matches!(self.world.aggregate.primitives()[point.hit.primitive as usize], Primitive::Patch(_)) {
             return 0.0;
         }
         let is_own = |surface: &Surface| matches!(surface, Surface::Object { object: other, .. } if *other == object);

@@ -109,7 +109,8 @@ fn subtended(sphere: &Sphere, from: DVec3) -> Option<f64> {
 }
 
 /// Density per steradian with which [`direct_light`] at `from` chooses the point of a light where a ray of direction
-/// `wi` (unit length) met it, at this distance and with this normal there.
+/// `wi` (unit length) met it, at this distance and with this normal there, if it asks this light: both sides of the
+/// balance leave out whether it does, so that their weights still add up to 1.
 pub(super) fn pdf_light(light: &Light, from: DVec3, wi: DVec3, distance: f64, n_light: DVec3) -> f64 {
     match light {
         Light::Point { .. } => 0.0,

@@ -1,6 +1,7 @@
 //! Directions in which a light meets specular surfaces: the projection map \[Jensen96\].
 
 use super::emission;
+use super::light_choice::CHOSEN;
 use crate::geometry::Primitive;
 use crate::math::{Ray, Sampler, Stream, octahedral};
 use crate::world::{Light, Surface, World};
@@ -10,10 +11,8 @@ use std::f64::consts::PI;
 
 /// Cells along a side of the square of directions.
 const SIDE: usize = 64;
-/// Rays that look into a cell: one in each quarter, or one alone where there are many lights to look from.
-const PROBES: u64 = 4;
-/// Lights that count as many.
-const MANY_LIGHTS: usize = 8;
+/// Rays along a side of a cell that look into it; one alone where there are so many lights that not all are asked.
+const PROBES_ALONG_SIDE: u64 = 2;
 /// Part of the paths that go where no specular surface was seen, in case the probes missed one.
 const DEFENSIVE_PART: f64 = 0.03;
 
@@ -31,11 +30,13 @@ pub struct Guide {
 impl Guide {
     /// The guide for a light, from rays that look for specular surfaces in every cell.
     pub(super) fn build(world: &World, light: &Light, light_index: u64) -> Self {
-        let probes = if world.lights.len() > MANY_LIGHTS { 1 } else { PROBES };
+        let along = if world.lights.len() > CHOSEN { 1 } else { PROBES_ALONG_SIDE };
         let seen: Vec<bool> = (0..SIDE * SIDE)
             .into_par_iter()
             .with_min_len(64)
-            .map(|cell| (0..probes).any(|probe| probe_hits_specular(world, light, light_index, cell, probe, probes)))
+            .map(|cell| {
+                (0..along * along).any(|probe| probe_hits_specular(world, light, light_index, cell, probe, along))
+            })
             .collect();
         let mut wanted = dilated(&seen);
         for cell in cells_of_small_objects(world, light) {
@@ -93,13 +94,13 @@ fn invert(cumulated: &[f64], x: f64) -> (usize, f64, f64) {
     (index, ((x - cumulated[index]) / probability).clamp(0.0, 1.0), probability)
 }
 
-fn probe_hits_specular(world: &World, light: &Light, light_index: u64, cell: usize, probe: u64, probes: u64) -> bool {
-    let index = cell as u64 * PROBES + probe;
+/// Whether a ray into one of the `along` times `along` parts of a cell meets a specular surface first.
+fn probe_hits_specular(world: &World, light: &Light, light_index: u64, cell: usize, probe: u64, along: u64) -> bool {
+    let index = cell as u64 * along * along + probe;
     let mut sampler = Sampler::new(0, Stream::Probe, light_index, index);
     let origin = emission::origin(light, &mut sampler);
-    let quarter = DVec2::new((probe & 1) as f64, (probe >> 1 & 1) as f64);
-    let jitter = sampler.next_2d();
-    let within = if probes == 1 { jitter } else { 0.5 * (quarter + jitter) };
+    let part = DVec2::new((probe % along) as f64, (probe / along) as f64);
+    let within = (part + sampler.next_2d()) / along as f64;
     let corner = DVec2::new((cell % SIDE) as f64, (cell / SIDE) as f64);
     let direction = octahedral::direction_from_square((corner + within) / SIDE as f64);
     if origin.normal.is_some_and(|normal| normal.dot(direction) <= 0.0) {

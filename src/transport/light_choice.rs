@@ -35,22 +35,15 @@ pub(super) fn choose(lights: &[Light], vertex: &Vertex, u: f64, mut ask: impl Fn
 
 /// About how much light a point gets from a light if nothing is between; 0 only where it gets none.
 fn expected_share(light: &Light, vertex: &Vertex) -> f64 {
-    let from = vertex.point.position;
+    let offset = light.center() - vertex.point.position;
     let strength = |c: Rgb| f64::from(c.max_element());
-    match light {
-        Light::Point { position, intensity } => strength(*intensity) * received(vertex, *position - from, 0.0),
-        Light::Sphere { sphere, radiance } => {
-            let area = PI * sphere.radius * sphere.radius;
-            strength(*radiance) * area * received(vertex, sphere.center - from, sphere.radius)
-        }
-        Light::Quad { quad, radiance } => {
-            let (center, edges) = (quad.position(0.5, 0.5), quad.edges());
-            let reach = 0.5 * (edges.0.length() + edges.1.length());
-            let offset = center - from;
-            let cos_light = -offset.dot(quad.normal()) / offset.length();
-            if cos_light > 0.0 { strength(*radiance) * quad.area() * received(vertex, offset, reach) } else { 0.0 }
-        }
-    }
+    let sent = match light {
+        Light::Point { intensity, .. } => strength(*intensity),
+        Light::Sphere { sphere, radiance } => strength(*radiance) * PI * sphere.radius * sphere.radius,
+        Light::Quad { quad, radiance } if offset.dot(quad.normal()) < 0.0 => strength(*radiance) * quad.area(),
+        Light::Quad { .. } => 0.0,
+    };
+    sent * received(vertex, offset, light.reach())
 }
 
 /// Inverse squared distance times about the cosine, of light from a ball of this radius at this offset; 0 only where the

@@ -62,7 +62,7 @@ pub struct CausticPlan {
 const GLOBAL_PATHS_PER_PIXEL: f64 = 4.0;
 /// Samples of a pixel in a full iteration. Photons are gathered for one of them, which is most of the work; the others
 /// find direct light, whose edges need them.
-const CAMERA_SAMPLES: f64 = 4.0;
+pub(super) const CAMERA_SAMPLES: f64 = 4.0;
 /// Paths for caustics in a full iteration, for each pixel.
 const CAUSTIC_PATHS_PER_PIXEL: f64 = 2.0;
 /// Radii for interreflection are at most this part of the distance to the next object.
@@ -129,9 +129,10 @@ impl Plan {
         (PART_OF_CLEARANCE * clearance).clamp(least, most)
     }
 
-    /// The distance from which on other objects do not matter for the radius.
-    pub(super) fn wanted_clearance(&self, footprint: f64) -> f64 {
-        self.global_radius * footprint / PART_OF_CLEARANCE
+    /// The distance from which on other objects do not matter for the radius; `None` where none ever does.
+    pub(super) fn wanted_clearance(&self, footprint: f64) -> Option<f64> {
+        let matters = !self.global_paths.is_empty() && self.least_global_radius < self.global_radius;
+        matters.then_some(self.global_radius * footprint / PART_OF_CLEARANCE)
     }
 
     /// Whether caustics that the camera sees directly come from the map in this iteration.
@@ -183,8 +184,6 @@ fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
         Some("max_bounces leaves only direct light")
     } else if !(0..world.surfaces.len()).any(|p| world.is_specular(p as u32)) {
         Some("no surface mirrors or refracts")
-    } else if !shows(world, |world, p| !world.is_specular(p) || world.scattered_bound(p) > 0.0) {
-        Some("no surface scatters the light that mirrors and glass send")
     } else {
         None
     };
@@ -213,14 +212,19 @@ fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
     let (all, seen) = (0..world.surfaces.len() as u32)
         .filter(|&p| sends_on(p))
         .fold((0, 0), |(all, seen), p| (all + 1, seen + usize::from(world.may_be_seen(p))));
-    if world.max_bounces < 3 {
-        notes.skip(SEEN_INDIRECTLY, "max_bounces leaves no path to a caustic that way");
+    let needless = if world.max_bounces < 3 {
+        Some("max_bounces leaves no path to a caustic that way")
     } else if seen == 0 {
-        notes.skip(SEEN_INDIRECTLY, "nothing in view mirrors or refracts: photons go straight to the film");
+        Some("nothing in view mirrors or refracts: photons go straight to the film")
     } else {
-        notes.render(SEEN_INDIRECTLY, format!("{seen} of {all} mirrors, glasses and glossy surfaces may be in view"));
+        None
+    };
+    match needless {
+        Some(reason) => notes.skip(SEEN_INDIRECTLY, reason),
+        None => notes
+            .render(SEEN_INDIRECTLY, format!("{seen} of {all} mirrors, glasses and glossy surfaces may be in view")),
     }
-    seen > 0 && world.max_bounces >= 3
+    needless.is_none()
 }
 
 fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
@@ -228,7 +232,9 @@ fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
     let scattering: Vec<u32> = (0..world.surfaces.len() as u32).filter(|&p| world.scattered_bound(p) > 0.0).collect();
     let needless = if world.max_bounces < 2 {
         Some("max_bounces leaves only direct light")
-    } else if scattering.iter().all(|&p| lights_nothing(world, p, scattering.len())) {
+    } else if let [only] = scattering[..]
+        && !may_light_itself(world, only)
+    {
         Some("the only surface that scatters light cannot light itself")
     } else {
         None
@@ -248,18 +254,18 @@ fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
     share(world.lights.iter().map(power).collect(), total)
 }
 
-/// Whether no light that this surface scatters meets a surface that scatters: it is the only one, convex towards the
-/// lights, and no mirror or glass sends light back within the bounces.
-fn lights_nothing(world: &World, primitive: u32, scattering: usize) -> bool {
+/// Whether light that a surface scatters may come back to it: it is not convex towards the lights, or a mirror or glass
+/// sends light back within the bounces.
+fn may_light_itself(world: &World, primitive: u32) -> bool {
     let sent_back = world.max_bounces >= 3 && (0..world.surfaces.len() as u32).any(|p| world.is_specular(p));
     let is_convex = match &world.aggregate.primitives()[primitive as usize] {
         Primitive::Quad(_) | Primitive::Plane(_) => true,
         Primitive::Sphere(sphere) => {
-            world.lights.iter().all(|light| light.center().distance(sphere.center) > sphere.radius)
+            world.lights.iter().all(|light| light.center().distance(sphere.center) > sphere.radius + light.reach())
         }
         Primitive::Patch(_) => false,
     };
-    scattering == 1 && is_convex && !sent_back
+    sent_back || !is_convex
 }
 
 fn power(light: &Light) -> f64 {

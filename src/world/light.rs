@@ -48,6 +48,15 @@ impl Light {
         }
     }
 
+    /// Radius of a ball about the middle that holds all of it.
+    pub fn reach(&self) -> f64 {
+        match self {
+            Self::Point { .. } => 0.0,
+            Self::Sphere { sphere, .. } => sphere.radius,
+            Self::Quad { quad, .. } => 0.5 * (quad.edges().0.length() + quad.edges().1.length()),
+        }
+    }
+
     /// Radiance towards `direction` from the surface of an area light with this outward or front normal.
     pub fn emitted(&self, n_geom: DVec3, direction: DVec3) -> Rgb {
         match self {

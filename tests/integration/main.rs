@@ -8,5 +8,6 @@ mod closed_forms;
 mod engine;
 mod glass;
 mod passes;
+mod plan;
 #[cfg(feature = "gui")]
 mod window;

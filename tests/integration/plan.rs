@@ -1,0 +1,78 @@
+//! What the plan renders and what it skips.
+
+use crate::closed_forms::scene;
+use patchlight::scene::Location;
+use patchlight::transport::Plan;
+use patchlight::world::prepare;
+
+const DIRECT: &str = "direct light";
+const CAUSTICS: &str = "caustics";
+const SEEN: &str = "caustics in mirrors and glass";
+const INTERREFLECTION: &str = "interreflection";
+
+const HEAD: &str = r#"
+    [camera]
+    position = [0, 0, 4]
+    target = [0, 0, 0]
+    fov_y = 40
+    [[material]]
+    name = "white"
+    type = "diffuse"
+    albedo = [0.5, 0.5, 0.5]
+    [[material]]
+    name = "black"
+    type = "diffuse"
+    albedo = [0, 0, 0]
+    [[material]]
+    name = "mirror"
+    type = "mirror"
+    reflectance = [1, 1, 1]
+    [[light]]
+    name = "lamp"
+    type = "point"
+    position = [0, 3, 0]
+    intensity = [1, 1, 1]
+"#;
+
+fn ball(name: &str, x: f64, radius: f64, material: &str) -> String {
+    format!(
+        "[[object]]\nname = \"{name}\"\ntype = \"sphere\"\ncenter = [{x}, 0, 0]\nradius = {radius}\nmaterial = \"{material}\"\n"
+    )
+}
+
+fn floor(material: &str) -> String {
+    format!(
+        "[[object]]\nname = \"floor\"\ntype = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\nmaterial = \"{material}\"\n"
+    )
+}
+
+/// What is rendered of a scene with these objects.
+fn rendered(max_bounces: u32, objects: &[String]) -> Vec<String> {
+    let text = format!("{HEAD}{}[render]\nmax_bounces = {max_bounces}\n", objects.concat());
+    let world = prepare(&scene(&text).scene, &Location::Unsaved, None).expect("the scene can be prepared");
+    let notes = Plan::new(&world).notes;
+    assert!(notes.iter().all(|note| !note.reason.is_empty()), "every decision has a reason: {notes:?}");
+    notes.into_iter().filter(|note| note.rendered).map(|note| note.what).collect()
+}
+
+#[test]
+fn only_what_can_contribute_is_rendered() {
+    let (white, mirror) = (ball("a", 0.0, 0.5, "white"), ball("b", 1.5, 0.5, "mirror"));
+    let cases: [(u32, &[String], &[&str]); 9] = [
+        (16, &[floor("white"), white.clone(), mirror.clone()], &[DIRECT, CAUSTICS, SEEN, INTERREFLECTION]),
+        (16, &[floor("white"), white.clone()], &[DIRECT, INTERREFLECTION]),
+        (1, &[floor("white"), white.clone(), mirror.clone()], &[DIRECT]),
+        // From the light to a mirror, a floor, the mirror again and the eye takes three events.
+        (2, &[floor("white"), white.clone(), mirror.clone()], &[DIRECT, CAUSTICS, INTERREFLECTION]),
+        // A floor lights itself by way of a mirror alone, which takes three events too.
+        (2, &[floor("white"), mirror.clone()], &[DIRECT, CAUSTICS]),
+        (16, &[floor("white"), mirror.clone()], &[DIRECT, CAUSTICS, SEEN, INTERREFLECTION]),
+        // Convex from where the light is; around the light it is not.
+        (16, &[white], &[DIRECT]),
+        (16, &[ball("room", 0.0, 5.0, "white")], &[DIRECT, INTERREFLECTION]),
+        (16, &[floor("black"), mirror], &[]),
+    ];
+    for (max_bounces, objects, expected) in cases {
+        assert_eq!(rendered(max_bounces, objects), expected, "{max_bounces} bounces, {objects:?}");
+    }
+}
