@@ -6,7 +6,7 @@ use super::editor::Editor;
 use crate::engine::Frame;
 use crate::file::write_whole;
 use crate::film::{ToneMap, write_exr, write_png};
-use crate::scene::{Film, Surface, SurfaceFormat};
+use crate::scene::{Film, SurfaceExport, SurfaceFormat};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use egui::Context;
 use std::num::NonZeroUsize;
@@ -27,7 +27,7 @@ pub(crate) struct Export {
 
 impl Default for Export {
     fn default() -> Self {
-        Self { waiting: None, steps: Surface::STEPS, done: unbounded() }
+        Self { waiting: None, steps: SurfaceExport::STEPS, done: unbounded() }
     }
 }
 
@@ -74,10 +74,10 @@ impl Editor {
     }
 
     /// The selected Bezier object, or all of them.
-    fn surface(&self) -> Option<Surface> {
+    fn surface(&self) -> Option<SurfaceExport> {
         let scene = self.document.scene();
-        let selected = self.document.selection.object(scene).and_then(|object| Surface::of([object]));
-        selected.or_else(|| Surface::of(&scene.objects))
+        let selected = self.document.selection.object(scene).and_then(|object| SurfaceExport::of([object]));
+        selected.or_else(|| SurfaceExport::of(&scene.objects))
     }
 
     /// Writes the surface.

@@ -1,8 +1,5 @@
-use super::{CliError, args::ExportArguments};
-use crate::{
-    file::write_whole,
-    scene::{Scene, SceneFile, Shape, Surface, SurfaceFormat},
-};
+use super::{CliError, args::ExportArguments, output::write};
+use crate::scene::{Scene, SceneFile, Shape, SurfaceExport, SurfaceFormat};
 
 /// `patchlight export`: the Bezier patches of a scene where they stand in the world, as a mesh or as control points.
 pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
@@ -11,15 +8,14 @@ pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
     let path = arguments.output.display();
     let format = SurfaceFormat::of(&arguments.output)
         .ok_or_else(|| CliError::Usage(format!("{path}: a file that ends in .obj or .bpt can be written")))?;
-    write_whole(&arguments.output, surface.text(format, arguments.steps).as_bytes())
-        .map_err(|e| CliError::Failed(format!("{path} cannot be written: {e}")))
+    write(&arguments.output, surface.text(format, arguments.steps).as_bytes())
 }
 
 /// The patches of the object with this name, or of all objects that have patches.
-fn chosen(scene: &Scene, wanted: Option<&str>) -> Result<Surface, CliError> {
+fn chosen(scene: &Scene, wanted: Option<&str>) -> Result<SurfaceExport, CliError> {
     let all = scene.objects.iter().filter(|object| matches!(object.shape, Shape::Bezier(_)));
     let chosen = all.clone().filter(|object| wanted.is_none_or(|name| name == object.name));
-    Surface::of(chosen).ok_or_else(|| {
+    SurfaceExport::of(chosen).ok_or_else(|| {
         let names: Vec<_> = all.map(|object| object.name.as_str()).collect();
         CliError::Usage(match wanted.filter(|_| !names.is_empty()) {
             Some(name) => {

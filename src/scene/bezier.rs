@@ -13,6 +13,14 @@ pub struct Bezier {
     pub file: Option<String>,
 }
 
+impl Bezier {
+    /// The control nets where they stand in the world.
+    pub fn placed_nets(&self) -> Vec<ControlNet> {
+        let world_from_object = self.transform.world_from_object();
+        self.patches.iter().map(|net| net.transformed(&world_from_object)).collect()
+    }
+}
+
 /// Scale, then rotate about x, y, z in turn, then translate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {

@@ -28,10 +28,16 @@ impl SceneFile {
 
     /// The scene that people name: a file, or the built-in scene of this name where there is no such file.
     pub fn find(name: &Path) -> Result<Self, SceneError> {
-        let names_a_file = name.exists() || name.extension().is_some() || name.components().count() > 1;
+        Self::find_from(Path::new(""), name)
+    }
+
+    /// The same, a file's path relative to a folder.
+    pub fn find_from(folder: &Path, name: &Path) -> Result<Self, SceneError> {
+        let path = folder.join(name);
+        let names_a_file = path.exists() || name.extension().is_some() || name.components().count() > 1;
         match name.to_str().filter(|word| !names_a_file && !word.is_empty()) {
             Some(word) => Self::built_in(word),
-            None => Self::open(name),
+            None => Self::open(&path),
         }
     }
 

@@ -17,7 +17,7 @@ mod object;
 mod problem;
 mod render;
 mod save;
-mod surface;
+mod surface_export;
 mod texture;
 mod validate;
 
@@ -33,7 +33,7 @@ pub use material::{Color, Material, MaterialModel, Relief};
 pub use object::{Object, Shape};
 pub use problem::Problem;
 pub use render::Render;
-pub use surface::{Surface, SurfaceFormat};
+pub use surface_export::{SurfaceExport, SurfaceFormat};
 pub use texture::{Encoding, Texture, TextureUse};
 pub use validate::validate;
 

@@ -86,7 +86,7 @@ fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Su
         })?;
         let surface = |shared| Surface::Object { object: index as u32, material: material as u32, shared };
         if let Shape::Bezier(bezier) = &object.shape {
-            let nets = placed_nets(bezier);
+            let nets = bezier.placed_nets();
             surfaces.extend(shared_edges(&nets).into_iter().map(surface));
             descriptions.extend(nets.into_iter().map(|net| Description::Patch(Box::new(net))));
         } else {
@@ -114,12 +114,6 @@ fn simple_primitive(shape: &Shape) -> Primitive {
         // Patches are not simple; an empty quad meets no ray.
         Shape::Bezier(_) => Primitive::Quad(Quad::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO)),
     }
-}
-
-/// The control nets of an object in world coordinates.
-fn placed_nets(bezier: &scene::Bezier) -> Vec<ControlNet> {
-    let world_from_object = bezier.transform.world_from_object();
-    bezier.patches.iter().map(|net| net.transformed(&world_from_object)).collect()
 }
 
 fn aggregate(descriptions: Vec<Description>, previous: Option<&World>) -> Aggregate {

@@ -4,7 +4,7 @@ use std::{num::NonZeroUsize, path::Path};
 
 /// Bezier patches of a scene where they stand in the world, for other programs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
+pub struct SurfaceExport {
     /// Of the objects that the patches are from.
     pub name: String,
     nets: Vec<ControlNet>,
@@ -31,7 +31,7 @@ impl SurfaceFormat {
     }
 }
 
-impl Surface {
+impl SurfaceExport {
     /// Quads along each side of a patch, unless somebody wants another number.
     pub const STEPS: NonZeroUsize = NonZeroUsize::new(16).unwrap();
 
@@ -40,9 +40,8 @@ impl Surface {
         let (mut names, mut nets) = (Vec::new(), Vec::new());
         for object in objects {
             let Shape::Bezier(bezier) = &object.shape else { continue };
-            let world_from_object = bezier.transform.world_from_object();
             names.push(object.name.as_str());
-            nets.extend(bezier.patches.iter().map(|net| net.transformed(&world_from_object)));
+            nets.extend(bezier.placed_nets());
         }
         (!names.is_empty()).then(|| Self { name: names.join("+"), nets })
     }
