@@ -1,4 +1,4 @@
-use crate::scene::Surface;
+use crate::scene::SurfaceExport;
 use clap::{Args, Parser, Subcommand};
 use std::{num::NonZeroUsize, path::PathBuf};
 
@@ -137,7 +137,7 @@ pub(super) struct ExportArguments {
     #[arg(long, value_name = "NAME")]
     pub(super) object: Option<String>,
     /// Quads along each side of a patch, in an .obj
-    #[arg(long, value_name = "N", default_value_t = Surface::STEPS, value_parser = parse_steps)]
+    #[arg(long, value_name = "N", default_value_t = SurfaceExport::STEPS, value_parser = parse_steps)]
     pub(super) steps: NonZeroUsize,
 }
 

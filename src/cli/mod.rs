@@ -6,6 +6,7 @@ mod check;
 mod error;
 mod export;
 mod intersect;
+mod output;
 mod progress;
 mod render;
 mod statistics;

@@ -1,13 +1,13 @@
 use super::{
     CliError,
     args::{Budget, RenderArguments, RenderSettings},
+    output::{needs_folder, write},
     progress::Progress,
     statistics::Statistics,
     words::counted,
 };
 use crate::{
     engine::{Frame, Session, SessionError},
-    file::{folder, write_whole},
     film::{ToneMap, write_exr, write_png},
     scene::SceneFile,
     transport::Cancel,
@@ -33,8 +33,7 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
     format.write(&arguments.output, &frame, &file)?;
     if let Some(path) = &arguments.stats {
         let statistics = Statistics::new(&frame, cpu_seconds, pool.current_num_threads());
-        write_whole(path, statistics.json()?.as_bytes())
-            .map_err(|e| CliError::Failed(format!("{}: cannot be written: {e}", path.display())))?;
+        write(path, statistics.json()?.as_bytes())?;
     }
     report(&frame, &arguments.output)
 }
@@ -73,6 +72,15 @@ pub(super) fn advance(session: &mut Session) -> f64 {
     session.seconds() - before
 }
 
+/// Renders as long as the next iteration would end in time if it took as long as the one before, which took `last`;
+/// the seconds that the newest one took.
+pub(super) fn advance_until(session: &mut Session, mut last: f64, seconds: f64) -> f64 {
+    while session.seconds() + last <= seconds {
+        last = advance(session);
+    }
+    last
+}
+
 /// What the name of the output asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
@@ -97,17 +105,6 @@ impl Format {
             Self::Exr => write_exr(path, &frame.image)?,
         }
         Ok(())
-    }
-}
-
-/// Tells before the rendering rather than after it that its result cannot be written.
-pub(super) fn needs_folder(path: &Path) -> Result<(), CliError> {
-    let folder = folder(path);
-    let there = folder.is_dir();
-    if there {
-        Ok(())
-    } else {
-        Err(CliError::Usage(format!("{}: there is no folder {}", path.display(), folder.display())))
     }
 }
 

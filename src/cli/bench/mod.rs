@@ -14,10 +14,10 @@ mod truth;
 use super::{
     CliError,
     args::BenchArguments,
-    render::{needs_folder, pool},
+    output::{needs_folder, write},
+    render::pool,
 };
 use crate::{
-    file::write_whole,
     film::{Mask, read_exr},
     scene::SceneFile,
 };
@@ -63,9 +63,4 @@ fn needs_png(path: &Path) -> Result<(), CliError> {
     } else {
         Err(CliError::Usage(format!("{}: expected a name that ends in .png", path.display())))
     }
-}
-
-/// Writes a result, whole or not at all.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    write_whole(path, bytes).map_err(|e| CliError::Failed(format!("{}: cannot be written: {e}", path.display())))
 }

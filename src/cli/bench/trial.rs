@@ -1,5 +1,9 @@
 use super::{CliError, measurement::Measurement, table, truth::Truth};
-use crate::{cli::render::advance, engine::Session, scene::SceneFile};
+use crate::{
+    cli::render::{advance, advance_until},
+    engine::Session,
+    scene::SceneFile,
+};
 use std::io::{Write, stdout};
 
 /// What is measured, and how often.
@@ -37,9 +41,7 @@ impl Trial {
         let mut session = Session::prepare(&self.file, seed, None)?;
         let mut last = advance(&mut session);
         for mark in &self.marks {
-            while session.seconds() + last <= *mark {
-                last = advance(&mut session);
-            }
+            last = advance_until(&mut session, last, *mark);
             let frame = session.frame(0);
             let (errors, outside) = self.truth.errors(&frame.image)?;
             let row = Measurement { seed, mark: *mark, stats: frame.stats, errors, outside };

@@ -1,13 +1,16 @@
-use crate::cli::bench::{
-    median::{Median, Pair},
-    slope::slopes,
+use crate::cli::{
+    bench::{
+        median::{Median, Pair},
+        slope::slopes,
+    },
+    words::counted,
 };
 
 /// The medians of several runs as one table of Markdown; a run's slopes stand in the line of its last mark.
 pub(super) fn table(runs: &[(String, Vec<Median>)], threads: usize) -> String {
     let masked = runs.iter().flat_map(|(_, medians)| medians).any(|median| median.outside.is_some());
     let outside = |text: String| if masked { text } else { String::new() };
-    let threads = if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
+    let threads = counted(threads as u64, "thread");
     let mut text = format!(
         "Medians over the seeds of each run, on {threads}. The seconds are those of the iterations that end before the \
          mark, or of the first one. A slope is the power of time like which an error falls in the last two octaves.\n\n\

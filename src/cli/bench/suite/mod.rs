@@ -4,8 +4,8 @@ mod file;
 mod markdown;
 mod run;
 
-use super::{csv::csv, median::medians, plot, write};
-use crate::cli::{CliError, render::pool};
+use super::{csv::csv, median::medians, plot};
+use crate::cli::{CliError, output::write, render::pool};
 use run::Run;
 use std::{
     fs,

@@ -3,7 +3,7 @@ use crate::{
     cli::{
         CliError,
         bench::{measurement::Measurement, trial::Trial, truth::Truth},
-        render::advance,
+        render::{advance, advance_until},
     },
     engine::Session,
     film::{LinearImage, Mask, compare, read_exr},
@@ -38,7 +38,7 @@ impl Run {
     /// Reads the files, whose paths are relative to `folder`.
     pub(super) fn load(entry: &Entry, folder: &Path) -> Result<Self, CliError> {
         let Name(name) = &entry.name;
-        let file = scene(&entry.scene, folder)?;
+        let file = SceneFile::find_from(folder, &entry.scene)?;
         let mask = entry.mask.as_ref().map(|mask| Mask::read(&folder.join(mask))).transpose()?;
         let reference = match &entry.reference {
             Some(path) => Reference::Given(read_exr(&folder.join(path))?),
@@ -67,19 +67,9 @@ impl Run {
     }
 }
 
-fn scene(name: &Path, folder: &Path) -> Result<SceneFile, CliError> {
-    let word = name.to_str().filter(|_| name.extension().is_none() && name.components().count() == 1);
-    Ok(match word {
-        Some(word) => SceneFile::built_in(word)?,
-        None => SceneFile::open(&folder.join(name))?,
-    })
-}
-
 fn own_reference(file: &SceneFile, seconds: f64) -> Result<LinearImage, CliError> {
     let mut session = Session::prepare(file, REFERENCE_SEED, None)?;
-    let mut last = advance(&mut session);
-    while session.seconds() + last <= seconds {
-        last = advance(&mut session);
-    }
+    let first = advance(&mut session);
+    advance_until(&mut session, first, seconds);
     Ok(Arc::unwrap_or_clone(session.frame(0).image))
 }
