@@ -119,7 +119,7 @@ pub(crate) fn user_of(scene: &Scene, item: Item) -> Option<&str> {
         }
         Item::Texture(index) => {
             let used = &scene.textures.get(index)?.name;
-            let uses = |material: &&Material| texture_names(&mut (*material).clone()).contains(&&mut used.clone());
+            let uses = |material: &&Material| texture_names(&mut (*material).clone()).iter().any(|name| *name == used);
             scene.materials.iter().find(uses).map(|material| material.name.as_str())
         }
         _ => None,

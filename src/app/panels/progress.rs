@@ -2,7 +2,7 @@
 
 use super::fields::rows;
 use super::plan::plan_ui;
-use super::settings::{exposure_ui, tone_curve_ui};
+use super::settings::display_rows;
 use crate::app::command::AppCommand;
 use crate::app::document::Document;
 use crate::app::edit::Edit;
@@ -71,12 +71,7 @@ fn display_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) 
     ui.strong("Display");
     rows(ui, "display", |ui| {
         ui.spacing_mut().slider_width = SLIDER_WIDTH;
-        ui.label("Exposure");
-        exposure_ui(ui, &mut film);
-        ui.end_row();
-        ui.label("Tone curve");
-        tone_curve_ui(ui, &mut film);
-        ui.end_row();
+        display_rows(ui, &mut film);
     });
     if film != document.scene().film {
         commands.push(AppCommand::Edit(Edit::Film(film)));

@@ -34,12 +34,7 @@ pub(super) fn settings_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<A
     rows(ui, "settings", |ui| {
         text_row(ui, "Scene name", &mut name, "scene");
         size_ui(ui, &mut film);
-        ui.label("Exposure");
-        exposure_ui(ui, &mut film);
-        ui.end_row();
-        ui.label("Tone curve");
-        tone_curve_ui(ui, &mut film);
-        ui.end_row();
+        display_rows(ui, &mut film);
         render_ui(ui, &mut render);
     });
     if name != scene.name {
@@ -51,6 +46,16 @@ pub(super) fn settings_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<A
     if render != scene.render {
         commands.push(AppCommand::Edit(Edit::Render(render)));
     }
+}
+
+/// How the picture is shown.
+pub(super) fn display_rows(ui: &mut Ui, film: &mut Film) {
+    ui.label("Exposure");
+    exposure_ui(ui, film);
+    ui.end_row();
+    ui.label("Tone curve");
+    tone_curve_ui(ui, film);
+    ui.end_row();
 }
 
 fn size_ui(ui: &mut Ui, film: &mut Film) {
@@ -66,14 +71,14 @@ fn size_ui(ui: &mut Ui, film: &mut Film) {
 }
 
 /// A slider in stops.
-pub(crate) fn exposure_ui(ui: &mut Ui, film: &mut Film) {
+fn exposure_ui(ui: &mut Ui, film: &mut Film) {
     let slider = Slider::new(&mut film.exposure, -8.0..=8.0).fixed_decimals(1).step_by(0.1).suffix(" EV");
     let slider = slider.clamping(egui::SliderClamping::Edits);
     ui.add(slider).accessible_name("Exposure").on_hover_text("For the screen and PNG files; restarts nothing");
 }
 
 /// The choice of how radiance becomes what the screen shows.
-pub(crate) fn tone_curve_ui(ui: &mut Ui, film: &mut Film) {
+fn tone_curve_ui(ui: &mut Ui, film: &mut Film) {
     let label = |curve| match curve {
         ToneCurve::Srgb => "sRGB, clipped",
         ToneCurve::Filmic => "filmic",
