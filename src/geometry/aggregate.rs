@@ -200,3 +200,69 @@ fn occluded(aggregate: &Aggregate, ray: &Ray) -> bool {
     });
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::bezier::ControlNet;
+    use crate::math::{Sampler, Stream};
+
+    fn bent_net(offset: DVec3) -> ControlNet {
+        let point = |i: usize, j: usize| {
+            let (x, z) = (i as f64 / 3.0, j as f64 / 3.0);
+            offset + DVec3::new(x, 0.8 * (4.0 * x * z).sin(), z)
+        };
+        ControlNet { points: std::array::from_fn(|i| std::array::from_fn(|j| point(i, j))) }
+    }
+
+    /// The distance to a primitive, or to the nearest of many points on it, so many that no place is farther than 0.02 from one.
+    fn by_sampling(primitive: &Primitive, from: DVec3) -> f64 {
+        let grid = (0..=100).flat_map(|i| (0..=100).map(move |j| (f64::from(i) / 100.0, f64::from(j) / 100.0)));
+        let nearest = |at: &dyn Fn(f64, f64) -> DVec3| {
+            grid.clone().map(|(u, v)| from.distance(at(u, v))).fold(f64::INFINITY, f64::min)
+        };
+        match primitive {
+            Primitive::Quad(quad) => nearest(&|u, v| quad.position(u, v)),
+            Primitive::Patch(patch) => nearest(&|u, v| patch.net().eval(u, v)),
+            Primitive::Sphere(sphere) => (from.distance(sphere.center) - sphere.radius).abs(),
+            Primitive::Plane(plane) => (from - plane.position(0.0, 0.0)).dot(plane.normal()).abs(),
+        }
+    }
+
+    #[test]
+    fn the_nearest_primitive_that_counts_is_found() {
+        let unit = |k: u64| {
+            let mut s = Sampler::new(4, Stream::Test, 9, k);
+            DVec3::new(s.next_1d(), s.next_1d(), s.next_1d())
+        };
+        let mut primitives = vec![Primitive::Plane(Plane::new(-3.0 * DVec3::Y, DVec3::Y, None))];
+        for k in 0..40 {
+            let place = 6.0 * unit(k);
+            primitives.push(match k % 3 {
+                0 => Primitive::Quad(Quad::new(place, unit(100 + k), DVec3::Y)),
+                1 => Primitive::Sphere(Sphere { center: place, radius: 0.3 }),
+                _ => Primitive::Patch(Arc::new(Patch::new(bent_net(place)))),
+            });
+        }
+        let aggregate = Aggregate::new(primitives);
+        let mut closer_than_boxes = 0;
+        for k in 0..200 {
+            let from = 8.0 * unit(1000 + k) - 1.0;
+            let counts = |p: u32| u64::from(p) % 5 != k % 5;
+            let least = |distance: &dyn Fn(&Primitive) -> f64| {
+                let counting = (0..).zip(aggregate.primitives()).filter(|(p, _)| counts(*p));
+                counting.map(|(_, primitive)| distance(primitive)).fold(f64::INFINITY, f64::min)
+            };
+            let to_surface = least(&|primitive| by_sampling(primitive, from));
+            let to_box = least(&|primitive| match primitive {
+                Primitive::Patch(patch) => patch.bounds().distance(from),
+                other => by_sampling(other, from) - 0.02,
+            });
+            let found = aggregate.distance(from, f64::INFINITY, counts);
+            assert!(to_box - 1e-6 < found && found < to_surface + 1e-6, "{found} is not in {to_box} to {to_surface}");
+            closer_than_boxes += usize::from(found > to_box + 0.03);
+            assert_eq!(aggregate.distance(from, 0.5 * found, counts), 0.5 * found, "the limit");
+        }
+        assert!(closer_than_boxes > 10, "a patch is held by more than one box");
+    }
+}

@@ -154,6 +154,28 @@ fn check_prints_the_plan() {
     assert!(report.contains("rendered  caustics: "), "{report}");
 }
 
+/// A program that gets no memory in between is ended by the system; so it asks before.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_picture_too_large_for_the_memory_is_refused() {
+    let dir = folder();
+    let render = format!(
+        "ulimit -v 2000000; exec '{}' render ball.toml -o a.png --size 16384x16384 --iterations 1",
+        env!("CARGO_BIN_EXE_patchlight")
+    );
+    let output = Command::new("sh").args(["-c", &render]).current_dir(dir.path()).output().unwrap();
+    fails(&output, 1, &["a picture of 16384 x 16384 pixels takes about", "more than there is"]);
+    assert_eq!(names(dir.path()), ["ball.toml"], "nothing was written");
+}
+
+#[test]
+fn of_very_many_mistakes_some_are_listed() {
+    let dir = folder();
+    fs::write(dir.path().join("bad.toml"), format!("{SCENE}{}", "[[light]]\nname = \"\"\n".repeat(50))).unwrap();
+    let output = patchlight(dir.path(), &["check", "bad.toml"]);
+    fails(&output, 2, &["bad.toml:26:1: light[1]: the key `type` is missing", "bad.toml: and 30 more"]);
+}
+
 #[test]
 fn every_built_in_scene_renders_from_anywhere() {
     let dir = folder();
