@@ -26,6 +26,7 @@
 //!                                                             |   │ camera pass   ─► visible points, direct     │
 //!                                                             |   │ gather        ─► radiance at visible points │
 //!                                                             |   │ commit        ─► film, all or nothing       │
+//!                                                             |   │   after 8, 16, ...: the plan is refined     │
 //!                                                             |   └──────────────────┬──────────────────────────┘
 //!    newest frame only, never an older generation ◄───────────┼── Frame { generation, iteration, image, stats }
 //!       ▼                                                     |
@@ -57,8 +58,9 @@
 //!
 //! - A pass is a function of what stands in its signature. Random numbers depend on (seed, stream, iteration, index,
 //!   dimension) alone, so one thread and many give the same bits.
-//! - An iteration is a pure function of (world, plan, seed, i). No statistics of one change another, so films of parts
-//!   can be merged. Iterations differ in size by a fixed schedule and count in the mean by their size.
+//! - An iteration is a pure function of (world, plan, seed, i), so films of parts can be merged. Iterations differ in size
+//!   by a fixed schedule and count in the mean by their size. The plan is refined after iterations 8, 16, 32, ... by
+//!   what the iterations since the last time measured: radii of density estimates.
 //! - A cancelled pass returns nothing, and the film changes only by whole iterations.
 //! - Colours are `f32`; positions, directions and distances are `f64`, because the offset that keeps a ray off the surface
 //!   it leaves has to be small against the scene and large against rounding. Photons are stored in `f32`, relative to the
@@ -79,6 +81,8 @@
 //! | `eta` | index of refraction behind an interface over the index in front of it |
 //! | footprint | side of a pixel, projected to a distance |
 //! | clearance | distance from a visible point to the next object: interreflection changes within a part of it |
+//! | contrast | how much brighter a visible point is in a wider disc: tells the bias of the density estimate |
+//! | bandwidth | radii of density estimates over the film, chosen by the contrasts |
 //! | focused | of photons: sent on by mirrors or glass after they were scattered |
 //! | lanes | numbers that one vector instruction handles side by side |
 //! | control net | the 4 x 4 control points of a patch; `dpdu`, `dpdv` are the surface's derivatives |
@@ -95,6 +99,7 @@
 //! - \[Jensen96\] H. W. Jensen, Global Illumination using Photon Maps, EGWR 1996.
 //! - \[JoeKuo08\] S. Joe, F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci.
 //!   Comput. 30, 2008.
+//! - \[KD13\] A. Kaplanyan, C. Dachsbacher, Adaptive Progressive Photon Mapping, ACM TOG 32(2), 2013.
 //! - \[KZ11\] C. Knaus, M. Zwicker, Progressive Photon Mapping: A Probabilistic Approach, ACM TOG 30(3), 2011.
 //! - \[LafortuneWillems94\] E. Lafortune, Y. Willems, Using the Modified Phong Reflectance Model for Physically Based
 //!   Rendering, KU Leuven CW 197, 1994.

@@ -1,7 +1,7 @@
 use super::frame::PassSeconds;
 use crate::math::Rgb;
 use crate::transport::{
-    Cancel, Counters, Maps, PhotonMap, Plan, Rows, camera_pass, caustic_photon_pass, gather, global_photon_pass,
+    Cancel, Counters, Maps, PerMap, PhotonMap, Plan, Rows, camera_pass, caustic_photon_pass, gather, global_photon_pass,
 };
 use crate::world::World;
 use std::time::Instant;
@@ -14,6 +14,8 @@ const PIXELS_PER_BAND: u32 = 1 << 17;
 pub(super) struct Iteration {
     /// For each pixel.
     pub(super) radiance: Vec<Rgb>,
+    /// For each pixel, of [`gather`].
+    pub(super) contrasts: Vec<PerMap<f32>>,
     pub(super) counters: Counters,
     pub(super) seconds: PassSeconds,
 }
@@ -41,6 +43,7 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     counters.map_builds += built as u64;
 
     let mut radiance = Vec::with_capacity(plan.camera.pixel_count());
+    let mut contrasts = vec![PerMap::default(); plan.camera.pixel_count()];
     for rows in bands(plan) {
         let seen = timed(&mut seconds.camera, || camera_pass(world, plan, &rows, seed, i, cancel))?;
         let (gathered, gather_counters) =
@@ -49,13 +52,14 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
         counters += gather_counters;
         radiance.extend_from_slice(&seen.radiance);
         for (point, found) in seen.visible_points.iter().zip(&gathered) {
-            radiance[point.pixel as usize] += *found;
+            radiance[point.pixel as usize] += found.radiance;
+            contrasts[point.pixel as usize] += found.contrasts;
         }
     }
     for splat in &caustic.splats {
         radiance[splat.pixel as usize] += splat.radiance;
     }
-    Some(Iteration { radiance, counters, seconds })
+    Some(Iteration { radiance, contrasts, counters, seconds })
 }
 
 /// The film in bands of whole rows.

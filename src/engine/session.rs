@@ -3,7 +3,7 @@ use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
 use super::iteration::render_iteration;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Counters, Plan};
+use crate::transport::{Cancel, Contrasts, Counters, Plan};
 use crate::world::{Camera, PrepareError, World, prepare};
 use std::sync::Arc;
 use std::time::Instant;
@@ -49,6 +49,8 @@ pub struct Session {
     summary: Arc<PlanSummary>,
     seed: u64,
     film: FilmSums,
+    /// Since the plan was refined.
+    contrasts: Contrasts,
     counters: Counters,
     passes: PassSeconds,
     seconds: f64,
@@ -65,7 +67,8 @@ impl Session {
         let summary = Arc::new(PlanSummary { notes: plan.notes.clone() });
         let film = FilmSums::new(plan.camera.width, plan.camera.height);
         let passes = PassSeconds { prepare: start.elapsed().as_secs_f64(), ..PassSeconds::default() };
-        Ok(Self { world, plan, summary, seed, film, counters: Counters::default(), passes, seconds: 0.0 })
+        let contrasts = Contrasts::new(plan.camera.width, plan.camera.height);
+        Ok(Self { world, plan, summary, seed, film, contrasts, counters: Counters::default(), passes, seconds: 0.0 })
     }
 
     /// What is rendered and what is skipped.
@@ -84,6 +87,11 @@ impl Session {
             self.passes += iteration.seconds;
             self.passes.commit += commit.elapsed().as_secs_f64();
             self.counters += iteration.counters;
+            self.contrasts.add(number, &iteration.contrasts);
+            if let Some(refined) = self.plan.refined(number, &self.contrasts) {
+                self.plan = refined;
+                self.contrasts = Contrasts::new(self.plan.camera.width, self.plan.camera.height);
+            }
         }
         self.seconds += start.elapsed().as_secs_f64();
         iteration.map(|_| ())
@@ -124,10 +132,9 @@ impl Session {
     /// How the picture came about so far.
     pub fn stats(&self) -> Stats {
         let distance = self.world.camera.position.distance(self.world.center);
-        let pixels = if self.plan.caustics.is_some() { self.plan.caustic_radius } else { self.plan.global_radius };
         Stats {
             iterations: self.film.iterations(),
-            radius: pixels * self.plan.camera.footprint(distance) * self.plan.shrink(self.film.iterations()),
+            radius: self.plan.radius_at(distance, self.film.iterations()),
             error_estimate: self.film.error_estimate(),
             ..stats(&self.counters, self.passes, self.seconds)
         }

@@ -1,6 +1,7 @@
 //! Photons to radiance: density estimates at visible points.
 
 use super::Cancel;
+use super::bandwidth::WIDER;
 use super::bsdf;
 use super::camera_pass::VisiblePoint;
 use super::counters::Counters;
@@ -34,7 +35,63 @@ pub struct Maps {
     pub focused: PhotonMap,
 }
 
-/// Radiance that each visible point adds to its pixel, in their order; `None` when cancelled.
+/// Which of the [`Maps`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapKind {
+    /// Of caustics.
+    Caustic,
+    /// Of interreflection.
+    Global,
+    /// Of interreflection that was focused.
+    Focused,
+}
+
+impl MapKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Caustic, Self::Global, Self::Focused];
+}
+
+/// Something for each of the [`Maps`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PerMap<T>([T; 3]);
+
+impl<T> PerMap<T> {
+    /// What the function says of each.
+    pub fn from_fn(of: impl FnMut(MapKind) -> T) -> Self {
+        Self(MapKind::ALL.map(of))
+    }
+}
+
+impl<T> std::ops::Index<MapKind> for PerMap<T> {
+    type Output = T;
+
+    fn index(&self, kind: MapKind) -> &T {
+        &self.0[kind as usize]
+    }
+}
+
+impl<T> std::ops::IndexMut<MapKind> for PerMap<T> {
+    fn index_mut(&mut self, kind: MapKind) -> &mut T {
+        &mut self.0[kind as usize]
+    }
+}
+
+impl std::ops::AddAssign for PerMap<f32> {
+    fn add_assign(&mut self, other: Self) {
+        MapKind::ALL.into_iter().for_each(|kind| self[kind] += other[kind]);
+    }
+}
+
+/// What is found at a visible point.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Gathered {
+    /// Radiance that the point adds to its pixel.
+    pub radiance: Rgb,
+    /// How much brighter it is in wider discs, summed over channels; 0 where that is not measured.
+    pub contrasts: PerMap<f32>,
+}
+
+/// What is found at each visible point, in their order; `None` when cancelled.
 pub fn gather(
     world: &World,
     plan: &Plan,
@@ -42,14 +99,14 @@ pub fn gather(
     points: &[VisiblePoint],
     iteration: u64,
     cancel: Cancel,
-) -> Option<(Vec<Rgb>, Counters)> {
-    let blocks: Vec<(Vec<Rgb>, Counters)> = points
+) -> Option<(Vec<Gathered>, Counters)> {
+    let blocks: Vec<(Vec<Gathered>, Counters)> = points
         .par_chunks(POINTS_PER_BLOCK)
         .map(|points| {
             let mut counters = Counters::default();
             let gatherer = Gatherer { world, plan, maps, iteration };
-            let radiance = gather_block(&gatherer, points, &mut counters);
-            (!cancel.is_cancelled()).then_some((radiance, counters))
+            let gathered = gather_block(&gatherer, points, &mut counters);
+            (!cancel.is_cancelled()).then_some((gathered, counters))
         })
         .collect::<Option<_>>()?;
     Some(super::blocks::concatenate(blocks))
@@ -63,7 +120,7 @@ struct Gatherer<'a> {
 }
 
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn gather_block(gatherer: &Gatherer, points: &[VisiblePoint], counters: &mut Counters) -> Vec<Rgb> {
+fn gather_block(gatherer: &Gatherer, points: &[VisiblePoint], counters: &mut Counters) -> Vec<Gathered> {
     let mut stack = Stack::new();
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = Avx2::try_new() {
@@ -74,29 +131,46 @@ fn gather_block(gatherer: &Gatherer, points: &[VisiblePoint], counters: &mut Cou
 
 impl Gatherer<'_> {
     #[inline(always)]
-    fn at<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack, counters: &mut Counters) -> Rgb {
-        let mut radiance = Rgb::ZERO;
-        let footprint = f64::from(point.footprint);
-        let caustics_here = !point.seen_directly || self.plan.gathers_visible_caustics(self.iteration);
-        if caustics_here && !self.maps.caustic.is_empty() {
-            counters.caustic_gathers += 1;
-            radiance += self.estimate(l, &self.maps.caustic, stack, point, self.plan.caustic_radius * footprint, true);
+    fn at<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack, counters: &mut Counters) -> Gathered {
+        let mut found = Gathered::default();
+        let (plan, maps, footprint) = (self.plan, self.maps, f64::from(point.footprint));
+        let caustics_here = !point.seen_directly || plan.gathers_visible_caustics(self.iteration);
+        let scatters = point.scattering.albedo != Rgb::ZERO;
+        let clearance = f64::from(point.clearance);
+        let wanted = [
+            (MapKind::Caustic, &maps.caustic, caustics_here, plan.caustic_radius * footprint),
+            (MapKind::Global, &maps.global, scatters, plan.global_radius_at(footprint, clearance)),
+            (MapKind::Focused, &maps.focused, scatters, plan.focused_radius * footprint),
+        ];
+        for (kind, map, is_wanted, unshrunk_radius) in wanted {
+            if !is_wanted || map.is_empty() {
+                continue;
+            }
+            let is_caustic = kind == MapKind::Caustic;
+            *(if is_caustic { &mut counters.caustic_gathers } else { &mut counters.global_gathers }) += 1;
+            let radius = self.limited(point, unshrunk_radius) * plan.shrink_at(kind, point.pixel, self.iteration);
+            let light = self.estimate(l, map, stack, point, radius, is_caustic);
+            found.radiance += light;
+            if plan.compares_discs(point.pixel, self.iteration) {
+                let wider = self.estimate(l, map, stack, point, WIDER * radius, is_caustic);
+                found.contrasts[kind] = (wider - light).element_sum();
+            }
         }
-        if !self.maps.global.is_empty() && point.scattering.albedo != Rgb::ZERO {
-            counters.global_gathers += 1;
-            let radius = self.plan.global_radius_at(footprint, f64::from(point.clearance));
-            radiance += self.estimate(l, &self.maps.global, stack, point, radius, false);
-        }
-        if !self.maps.focused.is_empty() && point.scattering.albedo != Rgb::ZERO {
-            counters.global_gathers += 1;
-            radiance += self.estimate(l, &self.maps.focused, stack, point, self.plan.focused_radius * footprint, false);
-        }
-        if radiance.is_finite() {
-            radiance
+        if found.radiance.is_finite() && MapKind::ALL.into_iter().all(|kind| found.contrasts[kind].is_finite()) {
+            found
         } else {
             counters.dropped_samples += 1;
-            Rgb::ZERO
+            Gathered::default()
         }
+    }
+
+    /// A radius as large as the surface and the world allow. Limited before it shrinks, so that it shrinks everywhere:
+    /// else bias would stay.
+    fn limited(&self, point: &VisiblePoint, radius: f64) -> f64 {
+        let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
+        let limit =
+            if let Primitive::Sphere(sphere) = primitive { MAX_PART_OF_SPHERE * sphere.radius } else { f64::MAX };
+        radius.min(self.plan.largest_radius * self.world.radius).min(limit)
     }
 
     /// The density estimate of reflected radiance: `sum f flux K / integral of K` over the disc on the surface. Light
@@ -108,15 +182,10 @@ impl Gatherer<'_> {
         map: &PhotonMap,
         stack: &mut Stack,
         point: &VisiblePoint,
-        unshrunk_radius: f64,
+        radius: f64,
         with_lobe: bool,
     ) -> Rgb {
         let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
-        let limit =
-            if let Primitive::Sphere(sphere) = primitive { MAX_PART_OF_SPHERE * sphere.radius } else { f64::MAX };
-        let largest = self.plan.largest_radius * self.world.radius;
-        // Limited before it shrinks, so that it shrinks everywhere: else bias would stay.
-        let radius = unshrunk_radius.min(largest).min(limit) * self.plan.shrink(self.iteration);
         let radius = radius.max(1e-6 * self.world.radius);
         let query = Query {
             position: point.position,

@@ -13,6 +13,7 @@
 //!
 //! A pass is a function of the world, the plan, the seed and the number of the iteration; it returns what it found.
 
+mod bandwidth;
 mod blocks;
 mod bsdf;
 mod camera_pass;
@@ -32,11 +33,12 @@ mod photon_pass;
 mod plan;
 mod schedule;
 
+pub use bandwidth::{Bandwidth, Contrasts};
 pub use bsdf::{Fresnel, fresnel};
 pub use camera_pass::{CameraBatch, VisiblePoint, camera_pass};
 pub use caustic_pass::{CausticBatch, Splat, caustic_photon_pass};
 pub use counters::Counters;
-pub use gather::{Maps, gather};
+pub use gather::{Gathered, MapKind, Maps, PerMap, gather};
 pub use guide::Guide;
 pub use photon::Photon;
 pub use photon_map::{PhotonMap, Query};

@@ -1,5 +1,7 @@
 //! What a scene needs, decided before rendering, and why the rest is skipped.
 
+use super::bandwidth::{Bandwidth, Contrasts};
+use super::gather::MapKind;
 use super::guide::Guide;
 use super::light_choice::CHOSEN;
 use super::schedule::{self, SMALLEST};
@@ -42,6 +44,8 @@ pub struct Plan {
     /// Every decision.
     pub notes: Vec<PlanNote>,
     is_draft: bool,
+    /// By what radii have shrunk, once it was measured.
+    bandwidth: Option<Arc<Bandwidth>>,
 }
 
 /// How caustics are rendered.
@@ -96,6 +100,7 @@ impl Plan {
             largest_radius: 0.15,
             notes: notes.0,
             is_draft: false,
+            bandwidth: None,
         }
     }
 
@@ -154,9 +159,44 @@ impl Plan {
         before(iteration)..before(iteration + 1)
     }
 
-    /// The factor by which radii have shrunk in an iteration.
-    pub fn shrink(&self, iteration: u64) -> f64 {
+    /// The factor by which radii have shrunk in an iteration as long as nothing was measured.
+    fn shrink(&self, iteration: u64) -> f64 {
         if self.is_draft { 1.0 } else { schedule::shrink(iteration) }
+    }
+
+    /// The radius in an iteration at a distance from the camera, scene units: that for caustics, where there are any,
+    /// else that for interreflection far from other objects, in the mean over the film.
+    pub fn radius_at(&self, distance: f64, iteration: u64) -> f64 {
+        let (kind, pixels) = match &self.caustics {
+            Some(_) => (MapKind::Caustic, self.caustic_radius),
+            None => (MapKind::Global, self.global_radius),
+        };
+        let shrink = self.bandwidth.as_ref().map_or_else(|| self.shrink(iteration), |bandwidth| bandwidth.mean(kind));
+        pixels * shrink * self.camera.footprint(distance)
+    }
+
+    /// The factor by which a map's radius has shrunk in a pixel.
+    pub(super) fn shrink_at(&self, kind: MapKind, pixel: u32, iteration: u64) -> f64 {
+        self.bandwidth.as_ref().map_or_else(|| self.shrink(iteration), |bandwidth| bandwidth.at(kind, pixel))
+    }
+
+    /// Whether light in a pixel is also gathered in wider discs in this iteration.
+    pub(super) fn compares_discs(&self, pixel: u32, iteration: u64) -> bool {
+        !self.is_draft && Contrasts::includes(self.camera.width, pixel, iteration)
+    }
+
+    /// The plan for what follows iteration `i`, with the radii that the contrasts of the iterations since the last
+    /// refinement ask for; `None` where it stays as it is.
+    pub fn refined(&self, i: u64, contrasts: &Contrasts) -> Option<Self> {
+        if !self.gathers() || !schedule::refines_after(i) {
+            return None;
+        }
+        let total = schedule::size_before(2 * i + 1);
+        let bandwidth = match &self.bandwidth {
+            None => Bandwidth::first(contrasts, total, self.shrink(i)),
+            Some(bandwidth) => bandwidth.next(contrasts, total),
+        };
+        Some(Self { bandwidth: Some(Arc::new(bandwidth)), ..self.clone() })
     }
 
     /// Which paths of a light's sequence belong to an iteration, where a full one has `count`.

@@ -7,6 +7,7 @@ mod cli;
 mod closed_forms;
 mod engine;
 mod glass;
+mod indirect_shadow;
 mod passes;
 mod plan;
 #[cfg(feature = "gui")]
