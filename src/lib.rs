@@ -94,6 +94,7 @@
 //! - \[Burley20\] B. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 //! - \[Clarberg08\] P. Clarberg, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, JGT 13(3), 2008.
 //! - \[Duff17\] T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
+//! - \[FanGijbels96\] J. Fan, I. Gijbels, Local Polynomial Modelling and Its Applications, 1996.
 //! - \[Haines19\] E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray
 //!   Tracing Gems, 2019.
 //! - \[Jensen96\] H. W. Jensen, Global Illumination using Photon Maps, EGWR 1996.

@@ -187,10 +187,13 @@ impl Gatherer<'_> {
     ) -> Rgb {
         let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
         let radius = radius.max(1e-6 * self.world.radius);
+        let Surface::Object { shared, .. } = self.world.surfaces[point.primitive as usize] else { return Rgb::ZERO };
+        let (slope, integral) = edge_kernel(primitive, point, shared, radius, self.plan.corrects_edges());
         let query = Query {
             position: point.position,
             normal: point.n_side,
             radius: radius as f32,
+            slope: slope.as_vec3(),
             tag_start: point.tag,
             tag_span: point.photon_bounces + 1,
         };
@@ -203,12 +206,7 @@ impl Gatherer<'_> {
         } else {
             map.sum_flux(l, &query, stack) * diffuse
         };
-        if reflected == Rgb::ZERO {
-            return Rgb::ZERO;
-        }
-        let Surface::Object { shared, .. } = self.world.surfaces[point.primitive as usize] else { return Rgb::ZERO };
-        let area = surface_in_disc(primitive, point, shared, radius);
-        point.throughput * reflected / area as f32
+        point.throughput * reflected / integral as f32
     }
 }
 
@@ -229,14 +227,22 @@ fn glossy_sum<L: Lanes>(l: L, map: &PhotonMap, query: &Query, point: &VisiblePoi
     sum
 }
 
-/// The integral of the kernel over the part of the disc that the surface fills: without it, edges would be dark.
-fn surface_in_disc(primitive: &Primitive, point: &VisiblePoint, shared: SharedEdges, radius: f64) -> f64 {
+/// The kernel's slope in space and its integral over the part of the disc that the surface fills: without it, edges
+/// would be dark. Without `linear` the slope is 0, which is less noisy.
+fn edge_kernel(
+    primitive: &Primitive,
+    point: &VisiblePoint,
+    shared: SharedEdges,
+    radius: f64,
+    linear: bool,
+) -> (DVec3, f64) {
+    let whole = (DVec3::ZERO, kernel::full_integral(radius));
     let (dpdu, dpdv) = match primitive {
-        Primitive::Sphere(_) | Primitive::Plane(_) => return kernel::full_integral(radius),
+        Primitive::Sphere(_) | Primitive::Plane(_) => return whole,
         Primitive::Quad(quad) => quad.edges(),
         Primitive::Patch(patch) => {
             if shared.u == [true; 2] && shared.v == [true; 2] {
-                return kernel::full_integral(radius);
+                return whole;
             }
             // To first order the patch is the parallelogram that its derivatives span.
             let d = patch.net().derivatives(point.uv.x, point.uv.y);
@@ -248,9 +254,13 @@ fn surface_in_disc(primitive: &Primitive, point: &VisiblePoint, shared: SharedEd
     let flat = |edge: DVec3| DVec2::new(edge.dot(e0), edge.dot(e1));
     let (u, v) = (flat(dpdu), flat(dpdv));
     if u.perp_dot(v).abs() <= 1e-9 * u.length() * v.length() {
-        return kernel::full_integral(radius);
+        return whole;
     }
-    kernel::clipped_integral(-(point.uv.x * u) - point.uv.y * v, u, v, open, radius)
+    let Some(moments) = kernel::clipped_moments(-(point.uv.x * u) - point.uv.y * v, u, v, open, radius) else {
+        return whole;
+    };
+    let (slope, integral) = if linear { moments.linear() } else { (DVec2::ZERO, moments.integral()) };
+    (slope.x * e0 + slope.y * e1, integral)
 }
 
 /// Orthonormal axes of the plane of two vectors.

@@ -180,6 +180,12 @@ impl Plan {
         self.bandwidth.as_ref().map_or_else(|| self.shrink(iteration), |bandwidth| bandwidth.at(kind, pixel))
     }
 
+    /// Whether density estimates at edges are right for light that changes linearly: better, except with the few photons
+    /// of a draft.
+    pub(super) fn corrects_edges(&self) -> bool {
+        !self.is_draft
+    }
+
     /// Whether light in a pixel is also gathered in wider discs in this iteration.
     pub(super) fn compares_discs(&self, pixel: u32, iteration: u64) -> bool {
         !self.is_draft && Contrasts::includes(self.camera.width, pixel, iteration)

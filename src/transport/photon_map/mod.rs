@@ -69,6 +69,8 @@ pub struct Query {
     pub normal: Vec3,
     /// Of the disc.
     pub radius: f32,
+    /// The kernel is `(1 - d^2 / r^2) (1 + slope d)`, `d` the offset from the position.
+    pub slope: Vec3,
     /// Photons count whose tag is at least this, by less than `tag_span`.
     pub tag_start: u32,
     /// See `tag_start`; not 0.
@@ -79,6 +81,11 @@ impl Query {
     /// Half the thickness of the disc, in radii: a surface curves away from its tangent plane by a quarter of the
     /// radius where the radius is half the radius of curvature.
     pub const SLAB: f32 = 0.25;
+
+    /// Whether the kernel is the same in all directions.
+    fn is_even(&self) -> bool {
+        self.slope == Vec3::ZERO
+    }
 }
 
 /// Nodes still to visit; kept from query to query to save allocations.
@@ -100,7 +107,7 @@ impl PhotonMap {
         self.len == 0
     }
 
-    /// Sum of flux times the Epanechnikov kernel `1 - d^2 / r^2` over the photons of the disc.
+    /// Sum of flux times the kernel over the photons of the disc.
     #[inline(always)]
     pub(super) fn sum_flux<L: Lanes>(&self, l: L, query: &Query, stack: &mut Stack) -> Rgb {
         let mut sums = [l.splat(0.0); 3];
@@ -159,7 +166,7 @@ impl PhotonMap {
             #[inline(always)]
             |block: &Block, weight: L::Vector| {
                 for (k, weight) in l.store(weight).into_iter().enumerate() {
-                    if weight > 0.0 {
+                    if weight != 0.0 {
                         photon(weight, at(&block.flux, k), at(&block.wi, k));
                     }
                 }
@@ -168,7 +175,8 @@ impl PhotonMap {
     }
 
     /// Calls `block(photons, their kernel weights)` for the photons near the disc; weights are 0 outside it and for
-    /// wrong tags. If `WHOLE`, children in the disc as a whole are left out; returns the sums over these, by lane.
+    /// wrong tags. If `WHOLE`, and the slope is 0, children in the disc as a whole are left out; returns the sums over
+    /// these, by lane.
     #[inline(always)]
     fn visit<L: Lanes, const WHOLE: bool>(
         &self,
@@ -184,7 +192,7 @@ impl PhotonMap {
         while let Some(index) = stack.pop() {
             let node = &self.nodes[index as usize];
             let mut near = l.bits(wide.meets(l, node));
-            if WHOLE && near != 0 {
+            if WHOLE && query.is_even() && near != 0 {
                 let inside = wide.holds(l, query, node);
                 if l.bits(inside) != 0 {
                     wide.add_whole(l, node, &self.moments[index as usize], inside, &mut whole);
@@ -253,6 +261,7 @@ struct WideQuery<L: Lanes> {
     position: [L::Vector; 3],
     normal: [L::Vector; 3],
     abs_normal: [L::Vector; 3],
+    slope: [L::Vector; 3],
     radius_sq: L::Vector,
     inverse_radius_sq: L::Vector,
     slab: L::Vector,
@@ -266,6 +275,7 @@ impl<L: Lanes> WideQuery<L> {
             position: splat3(l, query.position),
             normal: splat3(l, query.normal),
             abs_normal: splat3(l, query.normal.abs()),
+            slope: splat3(l, query.slope),
             radius_sq: l.splat(radius_sq),
             inverse_radius_sq: l.splat(1.0 / radius_sq),
             slab: l.splat(Query::SLAB * query.radius),
@@ -309,14 +319,19 @@ impl<L: Lanes> WideQuery<L> {
         }
     }
 
-    /// `1 - d^2 / r^2` inside the disc and for the right tag, else 0.
+    /// The kernel inside the disc and for the right tag, else 0.
     #[inline(always)]
     fn weights(&self, l: L, query: &Query, photons: &Block) -> L::Vector {
         let offset = sub3(l, load3(l, &photons.position), self.position);
         let kernel = l.sub(l.splat(1.0), l.mul(l.dot(offset, offset), self.inverse_radius_sq));
         let near_plane = l.less(l.abs(l.dot(offset, self.normal)), self.slab);
         let tagged = l.in_range(&photons.tag, query.tag_start, query.tag_span);
-        l.and(l.max(kernel, l.splat(0.0)), l.and(near_plane, tagged))
+        let mut kernel = l.max(kernel, l.splat(0.0));
+        if !query.is_even() {
+            kernel = l.mul_add(kernel, l.dot(offset, self.slope), kernel);
+        }
+        // Last: missing photons are infinitely far away, and their kernel may be no number.
+        l.and(kernel, l.and(near_plane, tagged))
     }
 }
 

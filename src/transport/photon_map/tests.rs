@@ -17,7 +17,7 @@ fn photons(count: u64, place: impl Fn(&mut Sampler) -> Vec3) -> Vec<Photon> {
         .collect()
 }
 
-/// Sums of `1 - d^2 / r^2` times the flux, and the same times the ratio of cosines.
+/// Sums of the kernel times the flux, and the same times the ratio of cosines.
 fn brute_force(photons: &[Photon], query: &Query, n_shade: Vec3) -> [Rgb; 2] {
     let mut sums = [Rgb::ZERO; 2];
     for photon in photons {
@@ -26,6 +26,7 @@ fn brute_force(photons: &[Photon], query: &Query, n_shade: Vec3) -> [Rgb; 2] {
         let near_plane = offset.dot(query.normal).abs() < Query::SLAB * query.radius;
         let tagged = photon.tag >= query.tag_start && photon.tag < query.tag_start + query.tag_span;
         if weight > 0.0 && near_plane && tagged {
+            let weight = weight * (1.0 + query.slope.dot(offset));
             sums[0] += weight * photon.flux;
             sums[1] += weight * photon.flux * (photon.wi.dot(n_shade) / photon.wi.dot(query.normal)).clamp(0.0, 1.1);
         }
@@ -55,7 +56,8 @@ fn check_sums<L: Lanes>(l: L) {
             let position = place(&mut s);
             let radius = 0.3 * s.next_1d() as f32;
             for (tag_start, tag_span) in [(1, 2), (0, 3)] {
-                let query = Query { position, normal: Vec3::Y, radius, tag_start, tag_span };
+                let slope = [Vec3::ZERO, Vec3::new(3.0, 0.0, -2.0)][tag_start as usize % 2];
+                let query = Query { position, normal: Vec3::Y, radius, slope, tag_start, tag_span };
                 let [expected, tilted] = brute_force(&photons, &query, n_shade);
                 // Sums of up to 4000 terms of size 1 in another order: 4000 roundings of 6e-8 of the sum at most.
                 let near = |a: Rgb, b: Rgb| (a - b).abs().max_element() <= 3e-4 * (1.0 + b.max_element());
