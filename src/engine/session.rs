@@ -30,8 +30,8 @@ pub enum SessionError {
     },
 }
 
-/// Bytes for each pixel at the busiest moment: the sums, an iteration, a frame and what is written to a file.
-const BYTES_PER_PIXEL: u64 = 96;
+/// Bytes for each pixel at the busiest moment: the sums, contrasts, an iteration, a frame and what is written to a file.
+const BYTES_PER_PIXEL: u64 = 128;
 
 /// Whether there is memory for the film; asked before, because a program that gets none in between is ended.
 fn check_memory(camera: &Camera) -> Result<(), SessionError> {

@@ -171,7 +171,8 @@ impl Worker {
             if quit {
                 return;
             }
-            if paused || self.session.is_none() {
+            // An edit while paused still gets one whole iteration: a coarse draft would stay otherwise.
+            if self.session.as_ref().is_none_or(|session| paused && session.iterations() > 0) {
                 // Once: a call to wake up may be left from before.
                 if self.session.is_some() && self.shared.status() != Status::Paused {
                     self.publish_if(|iterations| iterations > 0);

@@ -375,7 +375,7 @@ impl Notes {
     fn lights(&mut self, world: &World) -> bool {
         const WHAT: &str = "direct light and photons";
         if world.lights.is_empty() {
-            self.skip(WHAT, "no light has any power");
+            self.skip(WHAT, "there is no light that has any power");
         } else if world.max_bounces == 0 {
             self.skip(WHAT, "max_bounces is 0: only lights are seen");
         } else if !shows(world, |_, _| true) {

@@ -90,6 +90,20 @@ fn pause_holds_and_restart_begins_again() {
 }
 
 #[test]
+fn an_edit_while_paused_gets_one_iteration() {
+    let engine = engine();
+    engine.send(Command::Show(room(0.5)));
+    frame_where(&engine, |frame| frame.iteration >= 1);
+    engine.send(Command::Pause);
+    wait_for(|| (engine.status() == Status::Paused).then_some(()));
+    engine.send(Command::Show(room(0.6)));
+    let edited = frame_where(&engine, |frame| frame.generation == 2 && !frame.draft);
+    assert_eq!(edited.iteration, 1);
+    wait_for(|| (engine.status() == Status::Paused).then_some(()));
+    assert!(engine.newest_frame().is_none_or(|frame| frame.iteration == 1), "then it pauses");
+}
+
+#[test]
 fn a_scene_that_cannot_be_rendered_says_why_and_harms_no_other() {
     let mut broken = (*room(0.5)).clone();
     "nothing".clone_into(&mut broken.scene.objects[0].material);
