@@ -123,6 +123,7 @@ impl Plan {
             global_radius: 12.0,
             largest_radius: 0.2,
             is_draft: true,
+            bandwidth: None,
             ..self.clone()
         }
     }
@@ -180,10 +181,10 @@ impl Plan {
         self.bandwidth.as_ref().map_or_else(|| self.shrink(iteration), |bandwidth| bandwidth.at(kind, pixel))
     }
 
-    /// Whether density estimates at edges are right for light that changes linearly: better, except with the few photons
-    /// of a draft.
+    /// Whether density estimates at edges are right for light that changes linearly. Not before radii were measured: with
+    /// few photons the noise of it outweighs the bias.
     pub(super) fn corrects_edges(&self) -> bool {
-        !self.is_draft
+        self.bandwidth.is_some()
     }
 
     /// Whether light in a pixel is also gathered in wider discs in this iteration.
