@@ -6,7 +6,7 @@
 //! error of a mean of `N` iterations with the radius `x r` is `x^4 b^2 + v / (N x^2)`; it is least where
 //! `x^6 = v / (2 N b^2)` (compare \[KD13\], who measure the Laplacian).
 
-use super::gather::{MapKind, PerMap};
+use super::maps::{MapKind, PerMap};
 use super::schedule;
 
 /// How much wider the other disc is.

@@ -6,6 +6,7 @@ use super::bsdf;
 use super::camera_pass::VisiblePoint;
 use super::counters::Counters;
 use super::kernel;
+use super::maps::{MapKind, Maps, PerMap};
 use super::photon_map::{PhotonMap, Query, Stack};
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::Plan;
@@ -23,64 +24,6 @@ use rayon::prelude::*;
 const POINTS_PER_BLOCK: usize = 1024;
 /// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
 const MAX_PART_OF_SPHERE: f64 = 0.22;
-
-/// The maps of an iteration.
-#[derive(Clone, Debug, Default)]
-pub struct Maps {
-    /// Photons that only mirrors and glass have touched.
-    pub caustic: PhotonMap,
-    /// Photons that came from surfaces that scatter in many directions.
-    pub global: PhotonMap,
-    /// Photons that mirrors or glass sent on after they were scattered.
-    pub focused: PhotonMap,
-}
-
-/// Which of the [`Maps`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MapKind {
-    /// Of caustics.
-    Caustic,
-    /// Of interreflection.
-    Global,
-    /// Of interreflection that was focused.
-    Focused,
-}
-
-impl MapKind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Caustic, Self::Global, Self::Focused];
-}
-
-/// Something for each of the [`Maps`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PerMap<T>([T; 3]);
-
-impl<T> PerMap<T> {
-    /// What the function says of each.
-    pub fn from_fn(of: impl FnMut(MapKind) -> T) -> Self {
-        Self(MapKind::ALL.map(of))
-    }
-}
-
-impl<T> std::ops::Index<MapKind> for PerMap<T> {
-    type Output = T;
-
-    fn index(&self, kind: MapKind) -> &T {
-        &self.0[kind as usize]
-    }
-}
-
-impl<T> std::ops::IndexMut<MapKind> for PerMap<T> {
-    fn index_mut(&mut self, kind: MapKind) -> &mut T {
-        &mut self.0[kind as usize]
-    }
-}
-
-impl std::ops::AddAssign for PerMap<f32> {
-    fn add_assign(&mut self, other: Self) {
-        MapKind::ALL.into_iter().for_each(|kind| self[kind] += other[kind]);
-    }
-}
 
 /// What is found at a visible point.
 #[derive(Clone, Copy, Debug, Default)]

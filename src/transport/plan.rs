@@ -1,9 +1,9 @@
 //! What a scene needs, decided before rendering, and why the rest is skipped.
 
 use super::bandwidth::{Bandwidth, Contrasts};
-use super::gather::MapKind;
 use super::guide::Guide;
 use super::light_choice::CHOSEN;
+use super::maps::MapKind;
 use super::schedule::{self, SMALLEST};
 use crate::geometry::Primitive;
 use crate::math::{Rgb, Stream};

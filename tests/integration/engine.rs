@@ -72,13 +72,19 @@ fn a_fast_drag_shows_pictures_all_along() {
     assert_eq!(frame_where(&engine, |frame| !frame.draft).generation, 60);
 }
 
-#[test]
-fn pause_holds_and_restart_begins_again() {
+/// An engine that holds a picture.
+fn paused_engine() -> Engine {
     let engine = engine();
     engine.send(Command::Show(room(0.5)));
     frame_where(&engine, |frame| frame.iteration >= 2);
     engine.send(Command::Pause);
     wait_for(|| (engine.status() == Status::Paused).then_some(()));
+    engine
+}
+
+#[test]
+fn pause_holds_and_restart_begins_again() {
+    let engine = paused_engine();
     let held = wait_for(|| engine.newest_frame());
     std::thread::sleep(Duration::from_millis(100));
     assert!(engine.newest_frame().is_none(), "nothing comes while it pauses");
@@ -91,15 +97,12 @@ fn pause_holds_and_restart_begins_again() {
 
 #[test]
 fn an_edit_while_paused_gets_one_iteration() {
-    let engine = engine();
-    engine.send(Command::Show(room(0.5)));
-    frame_where(&engine, |frame| frame.iteration >= 1);
-    engine.send(Command::Pause);
-    wait_for(|| (engine.status() == Status::Paused).then_some(()));
+    let engine = paused_engine();
     engine.send(Command::Show(room(0.6)));
     let edited = frame_where(&engine, |frame| frame.generation == 2 && !frame.draft);
     assert_eq!(edited.iteration, 1);
     wait_for(|| (engine.status() == Status::Paused).then_some(()));
+    std::thread::sleep(Duration::from_millis(100));
     assert!(engine.newest_frame().is_none_or(|frame| frame.iteration == 1), "then it pauses");
 }
 

@@ -1,0 +1,61 @@
+//! The photon maps of an iteration, one for each kind of light that differs in how sharp it is.
+
+use super::photon_map::PhotonMap;
+
+/// The maps of an iteration.
+#[derive(Clone, Debug, Default)]
+pub struct Maps {
+    /// Photons that only mirrors and glass have touched.
+    pub caustic: PhotonMap,
+    /// Photons that came from surfaces that scatter in many directions.
+    pub global: PhotonMap,
+    /// Photons that mirrors or glass sent on after they were scattered.
+    pub focused: PhotonMap,
+}
+
+/// Which of the [`Maps`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapKind {
+    /// Of caustics.
+    Caustic,
+    /// Of interreflection.
+    Global,
+    /// Of interreflection that was focused.
+    Focused,
+}
+
+impl MapKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Caustic, Self::Global, Self::Focused];
+}
+
+/// Something for each of the [`Maps`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PerMap<T>([T; 3]);
+
+impl<T> PerMap<T> {
+    /// What the function says of each.
+    pub fn from_fn(of: impl FnMut(MapKind) -> T) -> Self {
+        Self(MapKind::ALL.map(of))
+    }
+}
+
+impl<T> std::ops::Index<MapKind> for PerMap<T> {
+    type Output = T;
+
+    fn index(&self, kind: MapKind) -> &T {
+        &self.0[kind as usize]
+    }
+}
+
+impl<T> std::ops::IndexMut<MapKind> for PerMap<T> {
+    fn index_mut(&mut self, kind: MapKind) -> &mut T {
+        &mut self.0[kind as usize]
+    }
+}
+
+impl std::ops::AddAssign for PerMap<f32> {
+    fn add_assign(&mut self, other: Self) {
+        MapKind::ALL.into_iter().for_each(|kind| self[kind] += other[kind]);
+    }
+}
