@@ -53,6 +53,21 @@ impl Primitive {
         }
     }
 
+    /// Whether it stands beside a quad: only over its edges, or not over it at all.
+    pub fn is_beside(&self, quad: &Quad) -> bool {
+        match self {
+            Self::Quad(other) => quad.is_beside(&other.corners()),
+            Self::Sphere(sphere) => quad.is_beside(&sphere.bounds().corners()),
+            // The surface lies in the convex hull of its control points.
+            Self::Patch(patch) => quad.is_beside(patch.net().points.as_flattened()),
+            Self::Plane(plane) => {
+                let heights = quad.corners().map(|corner| plane.normal().dot(corner - plane.position(0.0, 0.0)));
+                let tolerance = 1e-12 * (quad.edges().0.length() + quad.edges().1.length());
+                heights.iter().all(|h| *h >= -tolerance) || heights.iter().all(|h| *h <= tolerance)
+            }
+        }
+    }
+
     #[inline(always)]
     fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         match self {

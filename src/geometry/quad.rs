@@ -1,5 +1,5 @@
 use crate::math::{Aabb, Ray};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// How far outside its edges a quad still counts as hit, in units of (u, v): wider than the rounding of a hit, so
 /// that two quads that share an edge leave no gap between them.
@@ -62,6 +62,34 @@ impl Quad {
         self.edge_u.cross(self.edge_v).length()
     }
 
+    /// How far it is from the point at (u, v) to the edges in a direction in the quad's plane, in units of the direction.
+    pub fn distance_to_edge(&self, uv: DVec2, direction: DVec3) -> f64 {
+        let along = DVec2::new(direction.dot(self.dual_u), direction.dot(self.dual_v));
+        let to_side = |x: f64, speed: f64| match speed {
+            s if s > 0.0 => (1.0 - x) / s,
+            s if s < 0.0 => -x / s,
+            _ => f64::INFINITY,
+        };
+        to_side(uv.x, along.x).min(to_side(uv.y, along.y)).max(0.0)
+    }
+
+    /// Whether all these points lie beyond one of the edges, or in the plane through it that is perpendicular to the
+    /// quad.
+    pub fn is_beside(&self, points: &[DVec3]) -> bool {
+        let beyond = |coordinate: fn(DVec2) -> f64| {
+            points.iter().all(|point| {
+                let offset = *point - self.corner;
+                coordinate(DVec2::new(offset.dot(self.dual_u), offset.dot(self.dual_v))) <= EDGE_TOLERANCE
+            })
+        };
+        beyond(|uv| uv.x) || beyond(|uv| 1.0 - uv.x) || beyond(|uv| uv.y) || beyond(|uv| 1.0 - uv.y)
+    }
+
+    /// The corners in the order of their (u, v): 00, 10, 11, 01.
+    pub fn corners(&self) -> [DVec3; 4] {
+        [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| self.position(u, v))
+    }
+
     /// How far a point is from the quad.
     pub fn distance(&self, point: DVec3) -> f64 {
         let offset = point - self.corner;
@@ -110,6 +138,16 @@ mod tests {
             // The grid's points are 0.01 apart.
             assert!((quad.distance(point) - nearest).abs() < 0.01, "{} against {nearest}", quad.distance(point));
         }
+    }
+
+    #[test]
+    fn knows_how_far_its_edges_are_and_what_is_beside_it() {
+        let quad = Quad::new(DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 4.0));
+        let to_edge = |direction| quad.distance_to_edge(DVec2::new(0.25, 0.5), direction);
+        assert_eq!([to_edge(DVec3::X), to_edge(DVec3::NEG_X), to_edge(DVec3::Z)], [1.5, 0.5, 2.0]);
+        assert!(quad.is_beside(&[DVec3::new(-1.0, 3.0, 0.0), DVec3::new(9.0, -1.0, -0.5)]));
+        assert!(quad.is_beside(&quad.corners().map(|corner| corner + quad.edges().0)));
+        assert!(!quad.is_beside(&[DVec3::new(-1.0, 3.0, 0.0), DVec3::new(1.5, 3.0, 1.0)]));
     }
 
     #[test]

@@ -28,6 +28,12 @@ impl Aabb {
         !(self.min.cmple(self.max).all())
     }
 
+    /// Its eight corners.
+    pub fn corners(&self) -> [DVec3; 8] {
+        let [x, y, z] = [0, 1, 2].map(|axis| [self.min[axis], self.max[axis]]);
+        std::array::from_fn(|k| DVec3::new(x[k & 1], y[k >> 1 & 1], z[k >> 2]))
+    }
+
     /// The middle; meaningless for an empty box.
     pub fn center(&self) -> DVec3 {
         0.5 * (self.min + self.max)

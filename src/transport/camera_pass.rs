@@ -42,8 +42,8 @@ pub struct VisiblePoint {
     pub scattering: Scattering,
     /// Side of the pixel's footprint, scene units.
     pub footprint: f32,
-    /// Distance to the next object, scene units, no more than matters for the radius of interreflection; 0 on a patch.
-    pub clearance: f32,
+    /// To other objects.
+    pub clearance: Clearance,
     /// Where on which primitive.
     pub primitive: u32,
     /// Parameters on it.
@@ -54,6 +54,20 @@ pub struct VisiblePoint {
     pub photon_bounces: u32,
     /// Whether nothing is between it and the camera.
     pub seen_directly: bool,
+}
+
+/// How far other objects are from a point, scene units, no more than matters for density estimates.
+#[derive(Clone, Copy, Debug)]
+pub struct Clearance {
+    /// To the next one; 0 on a patch, whose own curves are near.
+    pub any: f64,
+    /// To the next one that stands on a quad or a plane, not only along its edges; infinite where none matters.
+    pub standing: f64,
+}
+
+impl Clearance {
+    /// Where nothing is near.
+    const FREE: Self = Self { any: f64::INFINITY, standing: f64::INFINITY };
 }
 
 /// What the camera pass finds out about some rows of the film.
@@ -255,10 +269,9 @@ impl Walk<'_> {
     fn visible_point(&self, branch: &Branch, vertex: &Vertex, pixel: u32, object: u32) -> VisiblePoint {
         let footprint = self.plan.camera.footprint(branch.distance);
         let wanted = self.plan.wanted_clearance(footprint);
-        let clearance = wanted.map_or(0.0, |limit| self.clearance(&vertex.point, object, limit));
         VisiblePoint {
             pixel,
-            clearance: clearance as f32,
+            clearance: wanted.map_or(Clearance::FREE, |limits| self.clearance(&vertex.point, object, limits)),
             position: (vertex.point.position - self.world.center).as_vec3(),
             n_side: vertex.n_side.as_vec3(),
             n_shade: vertex.n_shade.as_vec3(),
@@ -274,13 +287,24 @@ impl Walk<'_> {
         }
     }
 
-    /// How far the next object is, `limit` at most; 0 on a patch, whose own curves are near.
-    fn clearance(&self, point: &SurfacePoint, object: u32, limit: f64) -> f64 {
-        if matches!(self.world.aggregate.primitives()[point.hit.primitive as usize], Primitive::Patch(_)) {
-            return 0.0;
+    /// How far other objects are, up to these limits.
+    fn clearance(&self, point: &SurfacePoint, object: u32, limits: Clearance) -> Clearance {
+        let primitives = self.world.aggregate.primitives();
+        let primitive = &primitives[point.hit.primitive as usize];
+        if matches!(primitive, Primitive::Patch(_)) {
+            return Clearance { any: 0.0, standing: f64::INFINITY };
         }
-        let is_own = |surface: &Surface| matches!(surface, Surface::Object { object: other, .. } if *other == object);
-        self.world.aggregate.distance(point.position, limit, |p| !is_own(&self.world.surfaces[p as usize]))
+        let is_own = |p: u32| matches!(self.world.surfaces[p as usize], Surface::Object { object: other, .. } if other == object);
+        let any = self.world.aggregate.distance(point.position, limits.any, |p| !is_own(p));
+        let stands = |p: u32| match primitive {
+            Primitive::Quad(quad) => !is_own(p) && !primitives[p as usize].is_beside(quad),
+            Primitive::Plane(_) => !is_own(p),
+            Primitive::Sphere(_) | Primitive::Patch(_) => false,
+        };
+        let standing = (any < limits.standing)
+            .then(|| self.world.aggregate.distance(point.position, limits.standing, stands))
+            .filter(|standing| *standing < limits.standing);
+        Clearance { any, standing: standing.unwrap_or(f64::INFINITY) }
     }
 
     /// Continues along mirrors, glass and Phong lobes.

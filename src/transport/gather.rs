@@ -10,11 +10,12 @@ use super::maps::{MapKind, Maps, PerMap};
 use super::photon_map::{PhotonMap, Query, Stack};
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::Plan;
+use super::visibility_polygon::{Lookout, VisibilityPolygon};
 use crate::geometry::Primitive;
 #[cfg(target_arch = "x86_64")]
 use crate::math::lanes::Avx2;
 use crate::math::lanes::Portable;
-use crate::math::{Lanes, Rgb};
+use crate::math::{Lanes, Rgb, sobol};
 use crate::world::{Lobe, SharedEdges, Surface, World};
 use glam::{DVec2, DVec3};
 use multiversion::multiversion;
@@ -79,23 +80,28 @@ impl Gatherer<'_> {
         let (plan, maps, footprint) = (self.plan, self.maps, f64::from(point.footprint));
         let caustics_here = !point.seen_directly || plan.gathers_visible_caustics(self.iteration);
         let scatters = point.scattering.albedo != Rgb::ZERO;
-        let clearance = f64::from(point.clearance);
         let wanted = [
             (MapKind::Caustic, &maps.caustic, caustics_here, plan.caustic_radius * footprint),
-            (MapKind::Global, &maps.global, scatters, plan.global_radius_at(footprint, clearance)),
+            (MapKind::Global, &maps.global, scatters, plan.global_radius_at(footprint, point.clearance)),
             (MapKind::Focused, &maps.focused, scatters, plan.focused_radius * footprint),
-        ];
-        for (kind, map, is_wanted, unshrunk_radius) in wanted {
-            if !is_wanted || map.is_empty() {
+        ]
+        .map(|(kind, map, is_wanted, unshrunk_radius)| {
+            let radius = self.limited(point, unshrunk_radius) * plan.shrink_at(kind, point.pixel, self.iteration);
+            (kind, map, radius.max(1e-6 * self.world.radius), is_wanted && !map.is_empty())
+        });
+        let compares = plan.compares_discs(point.pixel, self.iteration);
+        let largest = wanted.iter().filter(|w| w.3).fold(0.0, |largest, w| w.2.max(largest));
+        let view = self.view(point, largest * if compares { WIDER } else { 1.0 }, counters);
+        for (kind, map, radius, is_wanted) in wanted {
+            if !is_wanted {
                 continue;
             }
             let is_caustic = kind == MapKind::Caustic;
             *(if is_caustic { &mut counters.caustic_gathers } else { &mut counters.global_gathers }) += 1;
-            let radius = self.limited(point, unshrunk_radius) * plan.shrink_at(kind, point.pixel, self.iteration);
-            let light = self.estimate(l, map, stack, point, radius, is_caustic);
+            let light = self.estimate(l, map, stack, point, view.as_ref(), radius, is_caustic);
             found.radiance += light;
-            if plan.compares_discs(point.pixel, self.iteration) {
-                let wider = self.estimate(l, map, stack, point, WIDER * radius, is_caustic);
+            if compares {
+                let wider = self.estimate(l, map, stack, point, view.as_ref(), WIDER * radius, is_caustic);
                 found.contrasts[kind] = (wider - light).element_sum();
             }
         }
@@ -105,6 +111,25 @@ impl Gatherer<'_> {
             counters.dropped_samples += 1;
             Gathered::default()
         }
+    }
+
+    /// What a point sees of its surface within the reach, if an object that stands there hides some of it.
+    fn view(&self, point: &VisiblePoint, reach: f64, counters: &mut Counters) -> Option<VisibilityPolygon> {
+        if point.clearance.standing >= reach {
+            return None;
+        }
+        let random = sobol::mix64(u64::from(point.pixel) ^ sobol::mix64(self.iteration)) as f64 / u64::MAX as f64;
+        let (view, rays) = Lookout {
+            world: self.world,
+            primitive: &self.world.aggregate.primitives()[point.primitive as usize],
+            uv: point.uv,
+            normal: point.n_side.as_dvec3(),
+            reach,
+            turn: 4.0 * random,
+        }
+        .look();
+        counters.rays += rays;
+        view
     }
 
     /// A radius as large as the surface and the world allow. Limited before it shrinks, so that it shrinks everywhere:
@@ -125,13 +150,22 @@ impl Gatherer<'_> {
         map: &PhotonMap,
         stack: &mut Stack,
         point: &VisiblePoint,
+        view: Option<&VisibilityPolygon>,
         radius: f64,
         with_lobe: bool,
     ) -> Rgb {
         let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
-        let radius = radius.max(1e-6 * self.world.radius);
         let Surface::Object { shared, .. } = self.world.surfaces[point.primitive as usize] else { return Rgb::ZERO };
-        let (slope, integral) = edge_kernel(primitive, point, shared, radius, self.plan.corrects_edges());
+        let linear = self.plan.corrects_edges();
+        let view = view.filter(|view| view.hides_within(radius));
+        let (slope, integral) = match view {
+            None => edge_kernel(primitive, point, shared, radius, linear),
+            Some(view) => {
+                let moments = view.moments(radius);
+                let (slope, integral) = moments.slope_and_integral(linear);
+                (view.in_space(slope), integral)
+            }
+        };
         let query = Query {
             position: point.position,
             normal: point.n_side,
@@ -141,8 +175,9 @@ impl Gatherer<'_> {
             tag_span: point.photon_bounces + 1,
         };
         let diffuse = bsdf::eval_diffuse(&point.scattering);
-        let reflected = if with_lobe && matches!(point.scattering.lobe, Lobe::Phong { .. }) {
-            glossy_sum(l, map, &query, point, stack)
+        let glossy = with_lobe && matches!(point.scattering.lobe, Lobe::Phong { .. });
+        let reflected = if glossy || view.is_some() {
+            sum_by_photon(l, map, &query, point, view, glossy, stack)
         } else if point.n_shade != point.n_side {
             // The flux of photons is counted on the surface as it is, and reflected as it is bumped.
             map.sum_tilted_flux(l, &query, point.n_shade, MAX_SHADING_FACTOR as f32, stack) * diffuse
@@ -153,19 +188,30 @@ impl Gatherer<'_> {
     }
 }
 
-/// Sum over the disc of `f flux K |cos to the shading normal| / |cos to the surface|`, `f` with its Phong lobe.
+/// Sum over what is in view of the disc of `f flux K |cos to the shading normal| / |cos to the surface|`, `f` with its
+/// Phong lobe if `glossy`.
 #[inline(always)]
-fn glossy_sum<L: Lanes>(l: L, map: &PhotonMap, query: &Query, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
+fn sum_by_photon<L: Lanes>(
+    l: L,
+    map: &PhotonMap,
+    query: &Query,
+    point: &VisiblePoint,
+    view: Option<&VisibilityPolygon>,
+    glossy: bool,
+    stack: &mut Stack,
+) -> Rgb {
     let diffuse = bsdf::eval_diffuse(&point.scattering);
     let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
     let mut sum = Rgb::ZERO;
-    map.for_each(l, query, stack, |weight, flux, wi| {
-        let (cos_shade, cos_side) = (wi.dot(point.n_shade), wi.dot(point.n_side));
-        if cos_shade <= 0.0 || cos_side <= 0.0 {
+    map.for_each(l, query, stack, |weight, photon| {
+        let (cos_shade, cos_side) = (photon.wi.dot(point.n_shade), photon.wi.dot(point.n_side));
+        let in_view = || view.is_none_or(|view| view.holds((photon.position - point.position).as_dvec3()));
+        if cos_shade <= 0.0 || cos_side <= 0.0 || !in_view() {
             return;
         }
-        let glossy = bsdf::eval_glossy(&point.scattering, n_shade, wo, wi.as_dvec3());
-        sum += weight * flux * (diffuse + glossy) * (cos_shade / cos_side).min(MAX_SHADING_FACTOR as f32);
+        let lobe = || bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
+        let f = if glossy { diffuse + lobe() } else { diffuse };
+        sum += weight * photon.flux * f * (cos_shade / cos_side).min(MAX_SHADING_FACTOR as f32);
     });
     sum
 }
@@ -202,7 +248,7 @@ fn edge_kernel(
     let Some(moments) = kernel::clipped_moments(-(point.uv.x * u) - point.uv.y * v, u, v, open, radius) else {
         return whole;
     };
-    let (slope, integral) = if linear { moments.linear() } else { (DVec2::ZERO, moments.integral()) };
+    let (slope, integral) = moments.slope_and_integral(linear);
     (slope.x * e0 + slope.y * e1, integral)
 }
 

@@ -21,15 +21,28 @@ pub(super) struct Moments {
 impl Moments {
     const ZERO: Self = Self { zeroth: 0.0, first: DVec2::ZERO, second: DMat2::ZERO };
 
-    /// Integral of the kernel.
-    pub(super) fn integral(&self) -> f64 {
-        self.zeroth
+    /// Over the part of the disc of this radius about the origin inside a star-shaped polygon around the origin, its
+    /// corners counterclockwise. Never less than a corner keeps.
+    pub(super) fn of_polygon<const N: usize>(corners: [DVec2; N], radius: f64) -> Self {
+        let sectors = (0..N).map(|k| sector_moments(corners[k], corners[(k + 1) % N], radius));
+        sectors.fold(Self::ZERO, Add::add).at_least_a_corner(radius)
+    }
+
+    /// So that a query a rounding outside the surface divides by no zero.
+    fn at_least_a_corner(self, radius: f64) -> Self {
+        let least = 0.02 * full_integral(radius);
+        if self.zeroth < least { Self { zeroth: least, ..Self::ZERO } } else { self }
+    }
+
+    /// The kernel's slope and its integral: as in [`Self::linear`], or without a slope, which is less noisy.
+    pub(super) fn slope_and_integral(&self, linear: bool) -> (DVec2, f64) {
+        if linear { self.linear() } else { (DVec2::ZERO, self.zeroth) }
     }
 
     /// The slope `s` for which the kernel times `1 + s d` has no first moment, and the integral of that: an estimate
     /// with it is right for light that changes linearly, also where the disc is clipped (local linear regression,
     /// \[FanGijbels96\]).
-    pub(super) fn linear(&self) -> (DVec2, f64) {
+    fn linear(&self) -> (DVec2, f64) {
         let scale = self.second.col(0).x + self.second.col(1).y;
         if self.second.determinant() <= 1e-3 * scale * scale {
             return (DVec2::ZERO, self.zeroth);
@@ -81,11 +94,8 @@ pub(super) fn clipped_moments(a: DVec2, u: DVec2, v: DVec2, open: [bool; 4], rad
     let corner =
         |first: usize, second: usize| intersection(outward(first), distance(first), outward(second), distance(second));
     let corners = [corner(3, 0), corner(0, 1), corner(1, 2), corner(2, 3)];
-    let sectors = (0..4).map(|k| sector_moments(corners[k], corners[(k + 1) % 4], radius));
-    let moments = turn * sectors.fold(Moments::ZERO, Add::add);
-    // Never less than what a corner keeps, so that a query a rounding outside the surface divides by no zero.
-    let least = 0.02 * full_integral(radius);
-    Some(if moments.zeroth < least { Moments { zeroth: least, ..Moments::ZERO } } else { moments })
+    let counterclockwise = if turn < 0.0 { [corners[3], corners[2], corners[1], corners[0]] } else { corners };
+    Some(Moments::of_polygon(counterclockwise, radius))
 }
 
 /// The point at these distances from the origin along two unit vectors.
@@ -140,8 +150,11 @@ fn sector_moments(p: DVec2, q: DVec2, radius: f64) -> Moments {
             fourth * (even - odd),
         )
     };
-    let arcs = arc(s1) + -1.0 * arc(c1) + arc(c0) + -1.0 * arc(s0);
-    sign * (arcs + chord(c1) + -1.0 * chord(c0))
+    let between = |from: f64, to: f64, of: &dyn Fn(f64) -> Moments| {
+        if from == to { Moments::ZERO } else { of(to) + -1.0 * of(from) }
+    };
+    let arcs = if half == 0.0 { between(s0, s1, &arc) } else { between(s0, c0, &arc) + between(c1, s1, &arc) };
+    sign * (arcs + between(c0, c1, &chord))
 }
 
 #[cfg(test)]
@@ -203,7 +216,7 @@ mod tests {
         let (a, u, v) = (DVec2::new(-0.1, -5.0), DVec2::new(9.0, 0.0), DVec2::new(0.0, 9.0));
         assert!(clipped_moments(a, u, v, [false, false, false, true], 1.0).is_none());
         let clipped = clipped_moments(a, u, v, [true, true, true, false], 1.0).expect("the disc is clipped");
-        assert!(clipped.integral() < 0.6 * full_integral(1.0));
+        assert!(clipped.zeroth < 0.6 * full_integral(1.0));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What a scene needs, decided before rendering, and why the rest is skipped.
 
-use super::bandwidth::{Bandwidth, Contrasts};
+use super::bandwidth::{Bandwidth, Contrasts, WIDER};
+use super::camera_pass::Clearance;
 use super::guide::Guide;
 use super::light_choice::CHOSEN;
 use super::maps::MapKind;
@@ -37,6 +38,8 @@ pub struct Plan {
     pub global_radius: f64,
     /// The same where another object is at hand.
     pub least_global_radius: f64,
+    /// The same where it stands on the surface: its foot casts sharp shadows even of indirect light.
+    pub least_standing_radius: f64,
     /// The same for interreflection that mirrors or glass focused.
     pub focused_radius: f64,
     /// The largest radius, parts of the world's radius.
@@ -96,6 +99,7 @@ impl Plan {
             caustic_radius: 2.0,
             global_radius: 24.0,
             least_global_radius: 10.0,
+            least_standing_radius: 5.0,
             focused_radius: 6.0,
             largest_radius: 0.15,
             notes: notes.0,
@@ -120,6 +124,7 @@ impl Plan {
             caustics,
             global_paths: fewer(&self.global_paths, (0.25 * pixels).clamp(1024.0, 8192.0)),
             least_global_radius: 12.0,
+            least_standing_radius: 12.0,
             global_radius: 12.0,
             largest_radius: 0.2,
             is_draft: true,
@@ -128,17 +133,22 @@ impl Plan {
         }
     }
 
-    /// The radius for interreflection after one full iteration at a point with this footprint and this distance to the
-    /// next object, scene units: light from near objects changes within a part of their distance \[Ward88\].
-    pub(super) fn global_radius_at(&self, footprint: f64, clearance: f64) -> f64 {
+    /// The radius for interreflection after one full iteration at a point with this footprint and this far from other
+    /// objects: light from near objects changes within a part of their distance \[Ward88\].
+    pub(super) fn global_radius_at(&self, footprint: f64, clearance: Clearance) -> f64 {
         let (least, most) = (self.least_global_radius * footprint, self.global_radius * footprint);
-        (PART_OF_CLEARANCE * clearance).clamp(least, most)
+        let by_any = (PART_OF_CLEARANCE * clearance.any).clamp(least, most);
+        by_any.min((PART_OF_CLEARANCE * clearance.standing).max(self.least_standing_radius * footprint))
     }
 
-    /// The distance from which on other objects do not matter for the radius; `None` where none ever does.
-    pub(super) fn wanted_clearance(&self, footprint: f64) -> Option<f64> {
-        let matters = !self.global_paths.is_empty() && self.least_global_radius < self.global_radius;
-        matters.then_some(self.global_radius * footprint / PART_OF_CLEARANCE)
+    /// The distances from which on other objects matter neither for radii nor for what is seen within them; `None`
+    /// where none ever does.
+    pub(super) fn wanted_clearance(&self, footprint: f64) -> Option<Clearance> {
+        let widest = WIDER * self.caustic_radius.max(self.focused_radius).max(self.least_standing_radius);
+        let global = |radius: f64| if self.global_paths.is_empty() { 0.0 } else { radius / PART_OF_CLEARANCE };
+        let limit = |radius: f64| footprint * widest.max(global(radius));
+        let limits = Clearance { any: limit(self.global_radius), standing: limit(self.least_global_radius) };
+        (self.gathers() && !self.is_draft).then_some(limits)
     }
 
     /// Whether caustics that the camera sees directly come from the map in this iteration.

@@ -13,10 +13,10 @@ const SCREEN: DVec2 = DVec2::new(0.5, 0.6);
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 48;
 
-/// A floor seen from above; light reaches it from the lamp and once reflected from the spot.
-fn scene(max_bounces: u32) -> String {
+/// A floor seen from above this x; light reaches it from the lamp and once reflected from the spot.
+fn scene(x: f64, max_bounces: u32) -> String {
     format!(
-        "[camera]\nposition = [-1, 3, 0]\ntarget = [-1, 0, 0]\nup = [0, 0, -1]\nfov_y = 30
+        "[camera]\nposition = [{x}, 3, 0]\ntarget = [{x}, 0, 0]\nup = [0, 0, -1]\nfov_y = 30
         [film]\nwidth = {WIDTH}\nheight = {HEIGHT}\n[render]\nmax_bounces = {max_bounces}
         [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
         [[material]]\nname = \"black\"\ntype = \"diffuse\"\nalbedo = [0, 0, 0]
@@ -51,23 +51,38 @@ fn expected(x: f64, z: f64) -> f64 {
     0.5 / PI * area * (0..n * n).map(from_part).sum::<f64>()
 }
 
-#[test]
-fn the_edge_of_an_indirect_shadow_is_sharp() {
-    let image = |max_bounces| session(&scene(max_bounces), 256).film().image().pixels;
+/// The means of the columns, so that noise does not count as an edge, and what they should be.
+fn columns(x: f64, iterations: u64) -> (Vec<f64>, Vec<f64>) {
+    let image = |max_bounces| session(&scene(x, max_bounces), iterations).film().image().pixels;
     let indirect: Vec<Rgb> = image(2).iter().zip(image(1)).map(|(all, direct)| all - direct).collect();
     let pixel = 6.0 * 15f64.to_radians().tan() / f64::from(HEIGHT);
-    // Each column's mean, so that noise does not count as an edge.
     let (mut found, mut truth) = (vec![0.0; WIDTH as usize], vec![0.0; WIDTH as usize]);
     for (k, radiance) in (0..).zip(indirect) {
         let (column, row) = (k % WIDTH, k / WIDTH);
-        let x = -1.0 + (f64::from(column) + 0.5 - f64::from(WIDTH) / 2.0) * pixel;
+        let x = x + (f64::from(column) + 0.5 - f64::from(WIDTH) / 2.0) * pixel;
         let z = (f64::from(row) + 0.5 - f64::from(HEIGHT) / 2.0) * pixel;
         found[column as usize] += f64::from(radiance.y) / f64::from(HEIGHT);
         truth[column as usize] += expected(x, z) / f64::from(HEIGHT);
     }
+    (found, truth)
+}
+
+#[test]
+fn the_edge_of_an_indirect_shadow_is_sharp() {
+    let (found, truth) = columns(-1.0, 256);
     let brightest = truth.iter().fold(0.0, |a: f64, &b| a.max(b));
     let errors: Vec<f64> = found.iter().zip(&truth).map(|(found, truth)| (found - truth).abs() / brightest).collect();
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
     // Radii that shrink like n^(-1/6) everywhere leave 0.032.
     assert!(mean < 0.025, "{mean}");
+}
+
+/// Seen from right above the screen, the floor is dark on one side of its foot and bright on the other.
+#[test]
+fn light_neither_leaks_under_a_screen_nor_fades_in_front_of_it() {
+    let (found, truth) = columns(SCREEN.x, 64);
+    let foot = WIDTH as usize / 2;
+    assert!(found[foot - 8..foot].iter().all(|&behind| behind < 0.01 * truth[foot]), "{:?}", &found[foot - 8..foot]);
+    let off = |k: usize| (found[k] / truth[k] - 1.0).abs();
+    assert!((foot..foot + 8).all(|k| off(k) < 0.05), "{:?}", &found[foot..foot + 8]);
 }

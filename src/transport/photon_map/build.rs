@@ -208,10 +208,9 @@ impl Tree<'_> {
             block.tag[slot] = photon.tag;
             leaf.include(photon.position, photon.position, [photon.tag; 2]);
         }
-        let at = |columns: &Columns, k: usize| Vec3::from_array(columns.map(|column| column[k]));
         for block in &self.blocks[first..] {
             for k in 0..LANES {
-                let (position, flux) = (at(&block.position, k), at(&block.flux, k));
+                let Photon { position, flux, .. } = block.photon(k);
                 if flux != Rgb::ZERO {
                     leaf.add_moments(flux, [Vec3::ZERO; 3], Rgb::ZERO, position - leaf.center());
                 }

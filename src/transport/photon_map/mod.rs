@@ -23,6 +23,13 @@ struct Block {
     tag: [u32; LANES],
 }
 
+impl Block {
+    fn photon(&self, k: usize) -> Photon {
+        let at = |columns: &Columns| Vec3::from_array(columns.map(|column| column[k]));
+        Photon { position: at(&self.position), flux: at(&self.flux), wi: at(&self.wi), tag: self.tag[k] }
+    }
+}
+
 /// Eight children side by side. Those that are missing have empty boxes.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
@@ -150,14 +157,14 @@ impl PhotonMap {
         sum3(l, sums)
     }
 
-    /// Calls `photon(kernel weight, flux, direction to where the photon came from)` for each photon of the disc.
+    /// Calls `photon(kernel weight, photon)` for each photon of the disc.
     #[inline(always)]
     pub(super) fn for_each<L: Lanes>(
         &self,
         l: L,
         query: &Query,
         stack: &mut Stack,
-        mut photon: impl FnMut(f32, Rgb, Vec3),
+        mut photon: impl FnMut(f32, Photon),
     ) {
         self.visit::<L, false>(
             l,
@@ -167,7 +174,7 @@ impl PhotonMap {
             |block: &Block, weight: L::Vector| {
                 for (k, weight) in l.store(weight).into_iter().enumerate() {
                     if weight != 0.0 {
-                        photon(weight, at(&block.flux, k), at(&block.wi, k));
+                        photon(weight, block.photon(k));
                     }
                 }
             },
@@ -223,11 +230,6 @@ impl PhotonMap {
 #[inline(always)]
 fn load3<L: Lanes>(l: L, columns: &Columns) -> [L::Vector; 3] {
     [l.load(&columns[0]), l.load(&columns[1]), l.load(&columns[2])]
-}
-
-/// One of eight points.
-fn at(columns: &Columns, k: usize) -> Vec3 {
-    Vec3::new(columns[0][k], columns[1][k], columns[2][k])
 }
 
 #[inline(always)]
