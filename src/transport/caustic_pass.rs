@@ -203,6 +203,7 @@ impl<'a> Walk<'a> {
                 position: (point.position - self.world.center).as_vec3(),
                 flux: branch.flux,
                 wi: wi.as_vec3(),
+                cos: wi.dot(point.n_side()) as f32,
                 tag: tag(object, point.front, branch.bounces),
             });
             self.batch.counters.photons_stored += 1;

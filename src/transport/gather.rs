@@ -178,8 +178,8 @@ impl Gatherer<'_> {
         let glossy = with_lobe && matches!(point.scattering.lobe, Lobe::Phong { .. });
         let reflected = if glossy || view.is_some() {
             sum_by_photon(l, map, &query, point, view, glossy, stack)
-        } else if point.n_shade != point.n_side {
-            // The flux of photons is counted on the surface as it is, and reflected as it is bumped.
+        } else if point.n_shade != point.n_side || matches!(primitive, Primitive::Sphere(_) | Primitive::Patch(_)) {
+            // The flux of photons is counted on the surface as it is where they arrived, and reflected as it is here.
             map.sum_tilted_flux(l, &query, point.n_shade, MAX_SHADING_FACTOR as f32, stack) * diffuse
         } else {
             map.sum_flux(l, &query, stack) * diffuse
@@ -204,14 +204,14 @@ fn sum_by_photon<L: Lanes>(
     let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
     let mut sum = Rgb::ZERO;
     map.for_each(l, query, stack, |weight, photon| {
-        let (cos_shade, cos_side) = (photon.wi.dot(point.n_shade), photon.wi.dot(point.n_side));
+        let cos_shade = photon.wi.dot(point.n_shade);
         let in_view = || view.is_none_or(|view| view.holds((photon.position - point.position).as_dvec3()));
-        if cos_shade <= 0.0 || cos_side <= 0.0 || !in_view() {
+        if cos_shade <= 0.0 || !in_view() {
             return;
         }
         let lobe = || bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
         let f = if glossy { diffuse + lobe() } else { diffuse };
-        sum += weight * photon.flux * f * (cos_shade / cos_side).min(MAX_SHADING_FACTOR as f32);
+        sum += weight * photon.flux * f * (cos_shade / photon.cos).min(MAX_SHADING_FACTOR as f32);
     });
     sum
 }

@@ -10,6 +10,8 @@ pub struct Photon {
     pub flux: Rgb,
     /// Towards where it came from, unit length.
     pub wi: Vec3,
+    /// Between `wi` and the surface's normal there; positive.
+    pub cos: f32,
     /// Surface, side and scattering events so far: see [`tag`].
     pub tag: u32,
 }

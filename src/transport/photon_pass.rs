@@ -109,6 +109,7 @@ impl Walk<'_> {
                 position: (point.position - self.world.center).as_vec3(),
                 flux: flight.flux,
                 wi: wi.as_vec3(),
+                cos: wi.dot(point.n_side()) as f32,
                 tag: tag(object, point.front, flight.bounces),
             });
             self.batch.counters.photons_stored += 1;

@@ -157,8 +157,13 @@ impl Moments {
 }
 
 impl Block {
-    const EMPTY: Self =
-        Self { position: [[f32::MAX; LANES]; 3], flux: [[0.0; LANES]; 3], wi: [[0.0; LANES]; 3], tag: [0; LANES] };
+    const EMPTY: Self = Self {
+        position: [[f32::MAX; LANES]; 3],
+        flux: [[0.0; LANES]; 3],
+        wi: [[0.0; LANES]; 3],
+        cos: [1.0; LANES],
+        tag: [0; LANES],
+    };
 }
 
 /// A tree while it is built.
@@ -205,7 +210,7 @@ impl Tree<'_> {
             set(&mut block.position, slot, photon.position);
             set(&mut block.flux, slot, photon.flux);
             set(&mut block.wi, slot, photon.wi);
-            block.tag[slot] = photon.tag;
+            (block.cos[slot], block.tag[slot]) = (photon.cos, photon.tag);
             leaf.include(photon.position, photon.position, [photon.tag; 2]);
         }
         for block in &self.blocks[first..] {

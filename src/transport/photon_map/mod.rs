@@ -20,13 +20,20 @@ struct Block {
     flux: Columns,
     /// Towards where they came from.
     wi: Columns,
+    cos: [f32; LANES],
     tag: [u32; LANES],
 }
 
 impl Block {
     fn photon(&self, k: usize) -> Photon {
         let at = |columns: &Columns| Vec3::from_array(columns.map(|column| column[k]));
-        Photon { position: at(&self.position), flux: at(&self.flux), wi: at(&self.wi), tag: self.tag[k] }
+        Photon {
+            position: at(&self.position),
+            flux: at(&self.flux),
+            wi: at(&self.wi),
+            cos: self.cos[k],
+            tag: self.tag[k],
+        }
     }
 }
 
@@ -128,29 +135,27 @@ impl PhotonMap {
         sum3(l, [l.add(sums[0], whole[0]), l.add(sums[1], whole[1]), l.add(sums[2], whole[2])])
     }
 
-    /// The same, each photon's flux times `cos to n_shade / cos to the normal`, at most `limit`; none of those that came
-    /// from behind.
+    /// The same, each photon's flux times `cos to the normal / cos where it arrived`, at most `limit`; none of those that
+    /// came from behind.
     #[inline(always)]
     pub(super) fn sum_tilted_flux<L: Lanes>(
         &self,
         l: L,
         query: &Query,
-        n_shade: Vec3,
+        normal: Vec3,
         limit: f32,
         stack: &mut Stack,
     ) -> Rgb {
         let mut sums = [l.splat(0.0); 3];
-        let (n_side, n_shade) = (splat3(l, query.normal), splat3(l, n_shade));
+        let normal = splat3(l, normal);
         self.visit::<L, false>(
             l,
             query,
             stack,
             #[inline(always)]
             |block: &Block, weight: L::Vector| {
-                let wi = load3(l, &block.wi);
-                let (cos_shade, cos_side) = (l.dot(wi, n_shade), l.dot(wi, n_side));
-                let in_front = l.and(l.less(l.splat(0.0), cos_shade), l.less(l.splat(0.0), cos_side));
-                let factor = l.and(in_front, l.min(l.div(cos_shade, cos_side), l.splat(limit)));
+                let cos = l.max(l.dot(load3(l, &block.wi), normal), l.splat(0.0));
+                let factor = l.min(l.div(cos, l.load(&block.cos)), l.splat(limit));
                 sums = mul_add3(l, l.mul(weight, factor), load3(l, &block.flux), sums);
             },
         );

@@ -12,7 +12,7 @@ fn photons(count: u64, place: impl Fn(&mut Sampler) -> Vec3) -> Vec<Photon> {
             let position = place(&mut s);
             let flux = Rgb::new(1.0, s.next_1d() as f32, 0.5);
             let wi = Vec3::new(s.next_1d() as f32 - 0.5, 1.0, 0.3).normalize();
-            Photon { position, flux, wi, tag: (k % 3) as u32 }
+            Photon { position, flux, wi, cos: wi.y, tag: (k % 3) as u32 }
         })
         .collect()
 }
