@@ -81,6 +81,7 @@
 //! | `eta` | index of refraction behind an interface over the index in front of it |
 //! | footprint | side of a pixel, projected to a distance |
 //! | clearance | distance from a visible point to the next object: interreflection changes within a part of it |
+//! | visibility polygon | what is seen of a plane from a visible point in it: what stands there hides photons beyond |
 //! | contrast | how much brighter a visible point is in a wider disc: tells the bias of the density estimate |
 //! | bandwidth | radii of density estimates over the film, chosen by the contrasts |
 //! | focused | of photons: sent on by mirrors or glass after they were scattered |

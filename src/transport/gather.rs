@@ -17,6 +17,7 @@ use crate::math::lanes::Avx2;
 use crate::math::lanes::Portable;
 use crate::math::{Lanes, Rgb, sobol};
 use crate::world::{Lobe, SharedEdges, Surface, World};
+use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3};
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -24,7 +25,7 @@ use rayon::prelude::*;
 /// Visible points of one piece of the pass.
 const POINTS_PER_BLOCK: usize = 1024;
 /// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
-const MAX_PART_OF_SPHERE: f64 = 0.22;
+const MAX_PART_OF_SPHERE: f64 = 0.32;
 
 /// What is found at a visible point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -80,28 +81,28 @@ impl Gatherer<'_> {
         let (plan, maps, footprint) = (self.plan, self.maps, f64::from(point.footprint));
         let caustics_here = !point.seen_directly || plan.gathers_visible_caustics(self.iteration);
         let scatters = point.scattering.albedo != Rgb::ZERO;
-        let wanted = [
-            (MapKind::Caustic, &maps.caustic, caustics_here, plan.caustic_radius * footprint),
-            (MapKind::Global, &maps.global, scatters, plan.global_radius_at(footprint, point.clearance)),
-            (MapKind::Focused, &maps.focused, scatters, plan.focused_radius * footprint),
-        ]
-        .map(|(kind, map, is_wanted, unshrunk_radius)| {
-            let radius = self.limited(point, unshrunk_radius) * plan.shrink_at(kind, point.pixel, self.iteration);
-            (kind, map, radius.max(1e-6 * self.world.radius), is_wanted && !map.is_empty())
-        });
+        let unshrunk = [
+            (MapKind::Caustic, caustics_here, plan.caustic_radius * footprint),
+            (MapKind::Global, scatters, plan.global_radius_at(footprint, point.clearance)),
+            (MapKind::Focused, scatters, plan.focused_radius * footprint),
+        ];
+        let radii: ArrayVec<(MapKind, f64), 3> = unshrunk
+            .into_iter()
+            .filter(|(kind, is_wanted, _)| *is_wanted && !maps[*kind].is_empty())
+            .map(|(kind, _, radius)| {
+                (kind, self.limited(point, radius) * plan.shrink_at(kind, point.pixel, self.iteration))
+            })
+            .collect();
         let compares = plan.compares_discs(point.pixel, self.iteration);
-        let largest = wanted.iter().filter(|w| w.3).fold(0.0, |largest, w| w.2.max(largest));
+        let largest = radii.iter().fold(0.0, |largest, (_, radius)| radius.max(largest));
         let view = self.view(point, largest * if compares { WIDER } else { 1.0 }, counters);
-        for (kind, map, radius, is_wanted) in wanted {
-            if !is_wanted {
-                continue;
-            }
+        for (kind, radius) in radii {
             let is_caustic = kind == MapKind::Caustic;
             *(if is_caustic { &mut counters.caustic_gathers } else { &mut counters.global_gathers }) += 1;
-            let light = self.estimate(l, map, stack, point, view.as_ref(), radius, is_caustic);
+            let light = self.estimate(l, kind, stack, point, view.as_ref(), radius);
             found.radiance += light;
             if compares {
-                let wider = self.estimate(l, map, stack, point, view.as_ref(), WIDER * radius, is_caustic);
+                let wider = self.estimate(l, kind, stack, point, view.as_ref(), WIDER * radius);
                 found.contrasts[kind] = (wider - light).element_sum();
             }
         }
@@ -147,16 +148,16 @@ impl Gatherer<'_> {
     fn estimate<L: Lanes>(
         &self,
         l: L,
-        map: &PhotonMap,
+        kind: MapKind,
         stack: &mut Stack,
         point: &VisiblePoint,
         view: Option<&VisibilityPolygon>,
         radius: f64,
-        with_lobe: bool,
     ) -> Rgb {
         let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
         let Surface::Object { shared, .. } = self.world.surfaces[point.primitive as usize] else { return Rgb::ZERO };
-        let linear = self.plan.corrects_edges();
+        let (map, linear) = (&self.maps[kind], self.plan.corrects_edges());
+        let radius = radius.max(1e-6 * self.world.radius);
         let view = view.filter(|view| view.hides_within(radius));
         let (slope, integral) = match view {
             None => edge_kernel(primitive, point, shared, radius, linear),
@@ -175,7 +176,7 @@ impl Gatherer<'_> {
             tag_span: point.photon_bounces + 1,
         };
         let diffuse = bsdf::eval_diffuse(&point.scattering);
-        let glossy = with_lobe && matches!(point.scattering.lobe, Lobe::Phong { .. });
+        let glossy = kind == MapKind::Caustic && matches!(point.scattering.lobe, Lobe::Phong { .. });
         let reflected = if glossy || view.is_some() {
             sum_by_photon(l, map, &query, point, view, glossy, stack)
         } else if point.n_shade != point.n_side || matches!(primitive, Primitive::Sphere(_) | Primitive::Patch(_)) {

@@ -13,6 +13,18 @@ pub struct Maps {
     pub focused: PhotonMap,
 }
 
+impl std::ops::Index<MapKind> for Maps {
+    type Output = PhotonMap;
+
+    fn index(&self, kind: MapKind) -> &PhotonMap {
+        match kind {
+            MapKind::Caustic => &self.caustic,
+            MapKind::Global => &self.global,
+            MapKind::Focused => &self.focused,
+        }
+    }
+}
+
 /// Which of the [`Maps`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapKind {
