@@ -83,7 +83,7 @@ impl Session {
         let iteration = render_iteration(&self.world, &self.plan, self.seed, number, cancel);
         if let Some(iteration) = &iteration {
             let commit = Instant::now();
-            self.film.commit(number, self.plan.weight(number), &iteration.radiance);
+            self.film.commit(self.plan.weight(number), &iteration.radiance);
             self.passes += iteration.seconds;
             self.passes.commit += commit.elapsed().as_secs_f64();
             self.counters += iteration.counters;

@@ -176,8 +176,11 @@ impl Plan {
     }
 
     /// The radius in an iteration at a distance from the camera, scene units: that for caustics, where there are any,
-    /// else that for interreflection far from other objects, in the mean over the film.
+    /// else that for interreflection far from other objects, in the mean over the film; 0 where nothing is gathered.
     pub fn radius_at(&self, distance: f64, iteration: u64) -> f64 {
+        if !self.gathers() {
+            return 0.0;
+        }
         let (kind, pixels) = match &self.caustics {
             Some(_) => (MapKind::Caustic, self.caustic_radius),
             None => (MapKind::Global, self.global_radius),

@@ -252,12 +252,16 @@ fn shape(kind: &str, t: &mut Table<'_>) -> Option<Shape> {
 
 fn bezier(t: &mut Table<'_>) -> Bezier {
     let transform = t.optional("transform", Transform::default());
+    let mut file = t.maybe("file");
     match (t.has("patches"), t.has("file")) {
-        (true, true) => t.add_at("file", "a Bezier object has `patches` or a `file`, not both".to_owned()),
+        (true, true) => {
+            t.add_at("file", "a Bezier object has `patches` or a `file`, not both".to_owned());
+            file = None;
+        }
         (false, false) => t.add("one of the keys `patches` and `file` is missing".to_owned()),
         _ => {}
     }
-    Bezier { transform, patches: Arc::new(t.optional("patches", Vec::new())), file: t.maybe("file") }
+    Bezier { transform, patches: Arc::new(t.optional("patches", Vec::new())), file }
 }
 
 fn transform(t: &mut Table<'_>) -> Transform {
