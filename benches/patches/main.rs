@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 use patchlight::geometry::bezier::{ControlNet, Patch, QuadMesh, read_bpt};
 use patchlight::geometry::{Aggregate, Primitive};
 use patchlight::math::{Aabb, Ray, Sampler, Stream, warp};
+use rayon::prelude::*;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Duration;
@@ -83,6 +84,9 @@ fn speed(c: &mut Criterion) {
             group.throughput(Throughput::Elements(rays.len() as u64));
             group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
             group.bench_function("patches", |b| b.iter(|| count(&rays, |ray| patches.closest_hit(ray))));
+            group.bench_function("patches, all threads", |b| {
+                b.iter(|| rays.par_iter().filter(|ray| patches.closest_hit(black_box(ray)).is_some()).count())
+            });
             for (steps, mesh) in &meshes {
                 let id = BenchmarkId::new("triangles", steps);
                 group.bench_function(id, |b| b.iter(|| count(&rays, |ray| triangles::closest_hit(mesh, ray))));
@@ -90,6 +94,9 @@ fn speed(c: &mut Criterion) {
             let few = &rays[..rays.len() / 16];
             group.throughput(Throughput::Elements(few.len() as u64));
             group.bench_function("newton", |b| b.iter(|| count(few, |ray| newton::closest_hit(&newton, ray))));
+            group.bench_function("newton behind boxes", |b| {
+                b.iter(|| count(few, |ray| newton::closest_hit_behind_boxes(&newton, ray)))
+            });
             group.finish();
         }
     }

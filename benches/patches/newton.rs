@@ -56,8 +56,13 @@ fn evaluate(net: &ControlNet, u: f64, v: f64) -> (DVec3, DVec3, DVec3) {
     (position, dpdu, dpdv)
 }
 
-/// The nearest hit on any patch whose box the ray meets.
+/// The nearest hit on any patch.
 pub(crate) fn closest_hit(patches: &[NewtonPatch], ray: &Ray) -> Option<f64> {
+    patches.iter().filter_map(|patch| patch.intersect(ray)).min_by(f64::total_cmp)
+}
+
+/// The same, but only patches are asked whose box the ray meets.
+pub(crate) fn closest_hit_behind_boxes(patches: &[NewtonPatch], ray: &Ray) -> Option<f64> {
     let inverse = ray.direction.recip();
     let meets = |bounds: &Aabb| {
         let (low, high) = ((bounds.min - ray.origin) * inverse, (bounds.max - ray.origin) * inverse);

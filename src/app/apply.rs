@@ -10,7 +10,7 @@ use super::new_items;
 use super::path_field::PathField;
 use super::selection::{Item, Selection};
 use super::view::View;
-use crate::engine::{self, Status};
+use crate::engine;
 use crate::scene::{Location, SceneFile};
 use egui::{Context, ViewportCommand};
 
@@ -60,10 +60,10 @@ impl Editor {
                 }
             }
             Action::Delete => self.delete(),
-            Action::TogglePause => self.outbox.push(match self.rendering.status() {
-                Status::Paused => engine::Command::Resume,
-                _ => engine::Command::Pause,
-            }),
+            Action::TogglePause => {
+                self.rendering.paused = !self.rendering.paused;
+                self.outbox.push(if self.rendering.paused { engine::Command::Pause } else { engine::Command::Resume });
+            }
             Action::Restart => self.outbox.push(engine::Command::Restart),
             Action::Brighter => self.expose(EXPOSURE_STEP),
             Action::Darker => self.expose(-EXPOSURE_STEP),

@@ -3,7 +3,6 @@
 use super::action::Action;
 use super::command::{AppCommand, Next};
 use super::editor::Editor;
-use crate::engine::Status;
 use crate::scene::built_in_scenes;
 use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
 
@@ -14,7 +13,7 @@ pub(crate) fn menu_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppComman
         ui.menu_button("Edit", |ui| edit_ui(ui, editor, commands));
         ui.menu_button("View", |ui| view_ui(ui, editor, commands));
         ui.menu_button("Render", |ui| {
-            let pause = if is_paused(editor) { "Resume" } else { "Pause" };
+            let pause = if editor.rendering.paused { "Resume" } else { "Pause" };
             item_ui(ui, Action::TogglePause, pause, true, commands);
             for action in [Action::Restart, Action::Brighter, Action::Darker] {
                 item_ui(ui, action, action.label(), true, commands);
@@ -23,10 +22,6 @@ pub(crate) fn menu_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppComman
         ui.menu_button("Help", |ui| item_ui(ui, Action::Help, Action::Help.label(), true, commands));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| buttons_ui(ui, editor, commands));
     });
-}
-
-fn is_paused(editor: &Editor) -> bool {
-    matches!(editor.rendering.status(), Status::Paused)
 }
 
 fn file_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
@@ -94,7 +89,7 @@ fn item_ui(ui: &mut Ui, action: Action, label: &str, enabled: bool, commands: &m
 }
 
 fn buttons_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
-    let pause = if is_paused(editor) { "▶ Resume" } else { "⏸ Pause" };
+    let pause = if editor.rendering.paused { "▶ Resume" } else { "⏸ Pause" };
     // From right to left.
     for (action, label) in
         [(Action::OneToOne, "1:1"), (Action::Fit, "Fit"), (Action::Restart, "↺ Restart"), (Action::TogglePause, pause)]

@@ -9,12 +9,14 @@ use std::sync::Arc;
 pub(crate) struct Rendering {
     frame: Option<Arc<Frame>>,
     status: Status,
+    /// What was asked for; the engine pauses after the iteration at hand.
+    pub(crate) paused: bool,
     curve: ErrorCurve,
 }
 
 impl Default for Rendering {
     fn default() -> Self {
-        Self { frame: None, status: Status::Idle, curve: ErrorCurve::default() }
+        Self { frame: None, status: Status::Idle, paused: false, curve: ErrorCurve::default() }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::editor::Editor;
 use super::panels::{duration, grouped};
+use super::rendering::Rendering;
 use super::theme;
 use crate::engine::{Frame, Status};
 use crate::math::Rgb;
@@ -10,7 +11,7 @@ use egui::{Align, Color32, Layout, Ui};
 /// Status and counts on the left, pixel and zoom on the right.
 pub(crate) fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
     ui.horizontal(|ui| {
-        let (text, color) = status_text(ui, editor.rendering.status());
+        let (text, color) = status_text(ui, &editor.rendering);
         ui.colored_label(color, text);
         if let Some(frame) = editor.rendering.frame() {
             ui.separator();
@@ -28,11 +29,12 @@ pub(crate) fn status_bar_ui(ui: &mut Ui, editor: &Editor) {
     });
 }
 
-fn status_text(ui: &Ui, status: &Status) -> (&'static str, Color32) {
+fn status_text(ui: &Ui, rendering: &Rendering) -> (&'static str, Color32) {
     let palette = theme::palette(ui.visuals().dark_mode);
-    match status {
+    match rendering.status() {
         Status::Idle => ("Idle", ui.visuals().weak_text_color()),
         Status::Preparing => ("Preparing", palette.warning),
+        Status::Rendering if rendering.paused => ("Pausing after this iteration", palette.warning),
         Status::Rendering => ("Rendering", palette.success),
         Status::Paused => ("Paused", palette.warning),
         Status::Failed(_) => ("Failed", palette.error),

@@ -7,9 +7,11 @@ use super::camera_pass::VisiblePoint;
 use super::counters::Counters;
 use super::kernel;
 use super::maps::{MapKind, Maps, PerMap};
-use super::photon_map::{PhotonMap, Query, Stack};
+use super::photon::Photon;
+use super::photon_map::{Query, Stack};
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::Plan;
+use super::tilt::Tilt;
 use super::visibility_polygon::{Lookout, VisibilityPolygon};
 use crate::geometry::Primitive;
 #[cfg(target_arch = "x86_64")]
@@ -142,6 +144,18 @@ impl Gatherer<'_> {
         radius.min(self.plan.largest_radius * self.world.radius).min(limit)
     }
 
+    /// How much a disc bends away from its tangent plane: see [`Tilt::bend`].
+    fn bend(&self, primitive: &Primitive, point: &VisiblePoint, radius: f64) -> f32 {
+        match primitive {
+            Primitive::Sphere(sphere) => {
+                let outward = point.position.as_dvec3() + self.world.center - sphere.center;
+                let is_outside = outward.dot(point.n_side.as_dvec3()) > 0.0;
+                if is_outside { (radius / sphere.radius) as f32 } else { 0.0 }
+            }
+            _ => 0.0,
+        }
+    }
+
     /// The density estimate of reflected radiance: `sum f flux K / integral of K` over the disc on the surface. Light
     /// in a Phong lobe counts for caustic photons only; the camera's own paths find the rest of it.
     #[inline(always)]
@@ -177,11 +191,16 @@ impl Gatherer<'_> {
         };
         let diffuse = bsdf::eval_diffuse(&point.scattering);
         let glossy = kind == MapKind::Caustic && matches!(point.scattering.lobe, Lobe::Phong { .. });
+        let limit = MAX_SHADING_FACTOR as f32;
+        let tilt = Tilt { normal: point.n_shade, limit, bend: self.bend(primitive, point, radius) };
         let reflected = if glossy || view.is_some() {
-            sum_by_photon(l, map, &query, point, view, glossy, stack)
-        } else if point.n_shade != point.n_side || matches!(primitive, Primitive::Sphere(_) | Primitive::Patch(_)) {
-            // The flux of photons is counted on the surface as it is where they arrived, and reflected as it is here.
-            map.sum_tilted_flux(l, &query, point.n_shade, MAX_SHADING_FACTOR as f32, stack) * diffuse
+            let mut sum = Rgb::ZERO;
+            map.for_each(l, &query, &tilt, stack, |weight, photon| {
+                sum += weight * photon.flux * reflected_part(point, view, glossy, &photon);
+            });
+            sum
+        } else if tilt.bend > 0.0 || point.n_shade != point.n_side {
+            map.sum_tilted_flux(l, &query, &tilt, stack) * diffuse
         } else {
             map.sum_flux(l, &query, stack) * diffuse
         };
@@ -189,32 +208,15 @@ impl Gatherer<'_> {
     }
 }
 
-/// Sum over what is in view of the disc of `f flux K |cos to the shading normal| / |cos to the surface|`, `f` with its
-/// Phong lobe if `glossy`.
-#[inline(always)]
-fn sum_by_photon<L: Lanes>(
-    l: L,
-    map: &PhotonMap,
-    query: &Query,
-    point: &VisiblePoint,
-    view: Option<&VisibilityPolygon>,
-    glossy: bool,
-    stack: &mut Stack,
-) -> Rgb {
+/// The part of a photon's light that a point reflects, by its Phong lobe too if `glossy`; none if it is not in view.
+fn reflected_part(point: &VisiblePoint, view: Option<&VisibilityPolygon>, glossy: bool, photon: &Photon) -> Rgb {
+    if view.is_some_and(|view| !view.holds((photon.position - point.position).as_dvec3())) {
+        return Rgb::ZERO;
+    }
     let diffuse = bsdf::eval_diffuse(&point.scattering);
     let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
-    let mut sum = Rgb::ZERO;
-    map.for_each(l, query, stack, |weight, photon| {
-        let cos_shade = photon.wi.dot(point.n_shade);
-        let in_view = || view.is_none_or(|view| view.holds((photon.position - point.position).as_dvec3()));
-        if cos_shade <= 0.0 || !in_view() {
-            return;
-        }
-        let lobe = || bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
-        let f = if glossy { diffuse + lobe() } else { diffuse };
-        sum += weight * photon.flux * f * (cos_shade / photon.cos).min(MAX_SHADING_FACTOR as f32);
-    });
-    sum
+    let lobe = || bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
+    if glossy { diffuse + lobe() } else { diffuse }
 }
 
 /// The kernel's slope in space and its integral over the part of the disc that the surface fills: without it, edges

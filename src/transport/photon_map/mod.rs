@@ -6,6 +6,7 @@
 mod build;
 
 use super::photon::Photon;
+use super::tilt::Tilt;
 use crate::math::{LANES, Lanes, Rgb};
 use glam::Vec3;
 
@@ -135,45 +136,35 @@ impl PhotonMap {
         sum3(l, [l.add(sums[0], whole[0]), l.add(sums[1], whole[1]), l.add(sums[2], whole[2])])
     }
 
-    /// The same, each photon's flux times `cos to the normal / cos where it arrived`, at most `limit`; none of those that
-    /// came from behind.
+    /// The same, each photon's flux times its factor by the tilt.
     #[inline(always)]
-    pub(super) fn sum_tilted_flux<L: Lanes>(
-        &self,
-        l: L,
-        query: &Query,
-        normal: Vec3,
-        limit: f32,
-        stack: &mut Stack,
-    ) -> Rgb {
+    pub(super) fn sum_tilted_flux<L: Lanes>(&self, l: L, query: &Query, tilt: &Tilt, stack: &mut Stack) -> Rgb {
         let mut sums = [l.splat(0.0); 3];
-        let normal = splat3(l, normal);
-        self.visit::<L, false>(
+        self.visit_tilted(
             l,
             query,
+            tilt,
             stack,
             #[inline(always)]
-            |block: &Block, weight: L::Vector| {
-                let cos = l.max(l.dot(load3(l, &block.wi), normal), l.splat(0.0));
-                let factor = l.min(l.div(cos, l.load(&block.cos)), l.splat(limit));
-                sums = mul_add3(l, l.mul(weight, factor), load3(l, &block.flux), sums);
-            },
+            |block: &Block, weight: L::Vector| sums = mul_add3(l, weight, load3(l, &block.flux), sums),
         );
         sum3(l, sums)
     }
 
-    /// Calls `photon(kernel weight, photon)` for each photon of the disc.
+    /// Calls `photon(kernel weight times factor by the tilt, photon)` for each photon of the disc that counts.
     #[inline(always)]
     pub(super) fn for_each<L: Lanes>(
         &self,
         l: L,
         query: &Query,
+        tilt: &Tilt,
         stack: &mut Stack,
         mut photon: impl FnMut(f32, Photon),
     ) {
-        self.visit::<L, false>(
+        self.visit_tilted(
             l,
             query,
+            tilt,
             stack,
             #[inline(always)]
             |block: &Block, weight: L::Vector| {
@@ -182,6 +173,29 @@ impl PhotonMap {
                         photon(weight, block.photon(k));
                     }
                 }
+            },
+        );
+    }
+
+    /// Calls `block(photons, their kernel weights times their factors by the tilt)` for the photons near the disc.
+    #[inline(always)]
+    fn visit_tilted<L: Lanes>(
+        &self,
+        l: L,
+        query: &Query,
+        tilt: &Tilt,
+        stack: &mut Stack,
+        mut block: impl FnMut(&Block, L::Vector),
+    ) {
+        let side = splat3(l, query.normal);
+        self.visit::<L, false>(
+            l,
+            query,
+            stack,
+            #[inline(always)]
+            |photons: &Block, weight: L::Vector| {
+                let factors = tilt.factors(l, side, load3(l, &photons.wi), l.load(&photons.cos));
+                block(photons, l.mul(weight, factors));
             },
         );
     }

@@ -64,9 +64,10 @@ fn check_sums<L: Lanes>(l: L) {
                 let found = map.sum_flux(l, &query, &mut stack);
                 assert!(near(found, expected), "{found} against {expected}");
                 let mut by_visit = Rgb::ZERO;
-                map.for_each(l, &query, &mut stack, |weight, photon| by_visit += weight * photon.flux);
+                let flat = Tilt { normal: Vec3::Y, limit: 1.1, bend: 0.0 };
+                map.for_each(l, &query, &flat, &mut stack, |weight, photon| by_visit += weight * photon.flux);
                 assert!(near(by_visit, expected), "{by_visit} against {expected}");
-                let found = map.sum_tilted_flux(l, &query, n_shade, 1.1, &mut stack);
+                let found = map.sum_tilted_flux(l, &query, &Tilt { normal: n_shade, ..flat }, &mut stack);
                 assert!(near(found, tilted), "{found} against {tilted}");
             }
         }
