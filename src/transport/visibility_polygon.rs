@@ -7,10 +7,9 @@ use crate::math::Ray;
 use crate::world::World;
 use glam::{DVec2, DVec3};
 
-/// Directions in which it is found out how far the view goes.
+/// Directions in which it is found out how far the view goes. If it is free in every other one, it is taken to be free in
+/// all.
 const DIRECTIONS: usize = 16;
-/// Every so many of them are tried first: if the view is free there, it is taken to be free everywhere.
-const TRIED_FIRST: usize = 2;
 /// Rays run this high above the surface, parts of the reach: low enough to meet what touches it in one point only close
 /// to this point.
 const HEIGHT: f64 = 0.01;
@@ -55,7 +54,10 @@ impl Lookout<'_> {
         };
         let (e0, e1) = self.normal.any_orthonormal_pair();
         let start = position + HEIGHT * self.reach * self.normal;
-        let unhidden = |unit: DVec2| {
+        let mut nearest = f64::INFINITY;
+        let mut corners = [DVec2::ZERO; DIRECTIONS];
+        let mut look_along = |k: usize| {
+            let unit = at_diamond_angle(self.turn + 4.0 * k as f64 / DIRECTIONS as f64);
             let direction = unit.x * e0 + unit.y * e1;
             let to_edge = match self.primitive {
                 Primitive::Quad(quad) => quad.distance_to_edge(self.uv, direction),
@@ -64,18 +66,18 @@ impl Lookout<'_> {
             // What is beyond the reach does not matter, but the polygon's sides have to stay beyond it, too.
             let free = to_edge.min(2.0 * self.reach);
             let ray = Ray { t_max: WHOLE * free.min(self.reach), ..Ray::new(start, direction) };
-            (free, self.world.aggregate.closest_hit(&ray).map(|hit| hit.t))
+            let hit = self.world.aggregate.closest_hit(&ray).map_or(f64::INFINITY, |hit| hit.t);
+            nearest = hit.min(nearest);
+            corners[k] = hit.min(free) * unit;
+            hit.is_finite()
         };
-        let unit = |k: usize| direction(self.turn + 4.0 * k as f64 / DIRECTIONS as f64);
-        if (0..DIRECTIONS).step_by(TRIED_FIRST).all(|k| unhidden(unit(k)).1.is_none()) {
-            return (None, (DIRECTIONS / TRIED_FIRST) as u64);
+        let hidden = (0..DIRECTIONS).step_by(2).filter(|&k| look_along(k)).count();
+        if hidden == 0 {
+            return (None, (DIRECTIONS / 2) as u64);
         }
-        let mut nearest = f64::INFINITY;
-        let corners = std::array::from_fn(|k| {
-            let (free, hit) = unhidden(unit(k));
-            nearest = nearest.min(hit.unwrap_or(nearest));
-            hit.unwrap_or(free) * unit(k)
-        });
+        for k in (1..DIRECTIONS).step_by(2) {
+            look_along(k);
+        }
         (Some(VisibilityPolygon { e0, e1, turn: self.turn, corners, nearest }), DIRECTIONS as u64)
     }
 }
@@ -116,8 +118,8 @@ fn diamond_angle(v: DVec2) -> f64 {
     }
 }
 
-/// The unit vector with this [`diamond_angle`], which may also be up to 8.
-fn direction(angle: f64) -> DVec2 {
+/// The unit vector with this [`diamond_angle`], which repeats after 4.
+fn at_diamond_angle(angle: f64) -> DVec2 {
     let turned = angle.rem_euclid(4.0);
     let y = if turned < 1.0 {
         turned
@@ -186,10 +188,10 @@ mod tests {
     fn diamond_angles_grow_around_the_circle() {
         for k in 0..80 {
             let angle = f64::from(k) / 20.0;
-            let v = direction(angle);
+            let v = at_diamond_angle(angle);
             assert!((v.length() - 1.0).abs() < 1e-12 && (diamond_angle(v) - angle).abs() < 1e-12, "{angle}");
-            let next = direction(angle + 0.05);
-            assert!(v.perp_dot(next) > 0.0 && direction(angle + 4.0).abs_diff_eq(v, 1e-12), "{angle}");
+            let next = at_diamond_angle(angle + 0.05);
+            assert!(v.perp_dot(next) > 0.0 && at_diamond_angle(angle + 4.0).abs_diff_eq(v, 1e-12), "{angle}");
         }
     }
 }
