@@ -7,7 +7,7 @@ use super::bsdf;
 use super::counters::Counters;
 use super::emission::{self, Emission};
 use super::medium::Media;
-use super::photon::{Photon, tag};
+use super::photon::Photon;
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::{CausticPlan, Plan};
 use super::{Cancel, blocks};
@@ -199,13 +199,8 @@ impl<'a> Walk<'a> {
         }
         let wi = -branch.ray.direction;
         if self.to_map {
-            self.batch.photons.push(Photon {
-                position: (point.position - self.world.center).as_vec3(),
-                flux: branch.flux,
-                wi: wi.as_vec3(),
-                cos: wi.dot(point.n_side()) as f32,
-                tag: tag(object, point.front, branch.bounces),
-            });
+            let photon = Photon::arrived(self.world, point, object, wi, branch.flux, branch.bounces);
+            self.batch.photons.push(photon);
             self.batch.counters.photons_stored += 1;
         }
         if self.to_film {

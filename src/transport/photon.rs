@@ -1,5 +1,6 @@
 use crate::math::Rgb;
-use glam::Vec3;
+use crate::world::{SurfacePoint, World};
+use glam::{DVec3, Vec3};
 
 /// Light that arrived at a point of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +15,27 @@ pub struct Photon {
     pub cos: f32,
     /// Surface, side and scattering events so far: see [`tag`].
     pub tag: u32,
+}
+
+impl Photon {
+    /// Flux that reached a point of an object from the direction `wi` after so many scattering events.
+    pub(super) fn arrived(
+        world: &World,
+        point: &SurfacePoint,
+        object: u32,
+        wi: DVec3,
+        flux: Rgb,
+        bounces: u32,
+    ) -> Self {
+        Self {
+            position: (point.position - world.center).as_vec3(),
+            flux,
+            wi: wi.as_vec3(),
+            // Not 0 by rounding: it is divided by.
+            cos: (wi.dot(point.n_side()) as f32).max(f32::MIN_POSITIVE),
+            tag: tag(object, point.front, bounces),
+        }
+    }
 }
 
 /// Scattering events that a tag can tell apart.

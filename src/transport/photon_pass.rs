@@ -5,7 +5,7 @@ use super::bsdf;
 use super::counters::Counters;
 use super::emission::{self, Emission};
 use super::medium::Media;
-use super::photon::{Photon, tag};
+use super::photon::Photon;
 use super::plan::Plan;
 use super::{Cancel, blocks};
 use crate::math::{Frame, Ray, Rgb, Sampler, Stream, warp};
@@ -105,13 +105,7 @@ impl Walk<'_> {
         let wi = -flight.ray.direction;
         if flight.was_scattered && scattering.albedo != Rgb::ZERO && flight.bounces < self.world.max_bounces {
             let photons = if flight.is_focused { &mut self.batch.focused } else { &mut self.batch.photons };
-            photons.push(Photon {
-                position: (point.position - self.world.center).as_vec3(),
-                flux: flight.flux,
-                wi: wi.as_vec3(),
-                cos: wi.dot(point.n_side()) as f32,
-                tag: tag(object, point.front, flight.bounces),
-            });
+            photons.push(Photon::arrived(self.world, &point, object, wi, flight.flux, flight.bounces));
             self.batch.counters.photons_stored += 1;
         }
         if flight.bounces + 1 >= self.world.max_bounces {
