@@ -245,6 +245,25 @@ mod tests {
     }
 
     #[test]
+    fn walls_are_beside_a_floor_and_what_stands_on_it_is_not() {
+        let floor = Quad::new(DVec3::ZERO, DVec3::X, DVec3::NEG_Z);
+        let wall_at = |x: f64| {
+            let quad = Quad::new(DVec3::new(x, 0.0, 0.0), DVec3::NEG_Z, DVec3::Y);
+            let sphere = Sphere { center: DVec3::new(x + 0.2, 0.2, -0.5), radius: 0.2 };
+            let plane = Plane::new(DVec3::new(x, 0.0, 0.0), DVec3::X, None);
+            let patch = Patch::new(bent_net(DVec3::new(x, 0.0, -1.0)));
+            [
+                Primitive::Quad(quad),
+                Primitive::Sphere(sphere),
+                Primitive::Plane(plane),
+                Primitive::Patch(Arc::new(patch)),
+            ]
+        };
+        assert!(wall_at(1.0).iter().all(|wall| wall.is_beside(&floor)));
+        assert!(wall_at(0.5).iter().all(|wall| !wall.is_beside(&floor)));
+    }
+
+    #[test]
     fn the_nearest_primitive_that_counts_is_found() {
         let unit = |k: u64| {
             let mut s = Sampler::new(4, Stream::Test, 9, k);
