@@ -82,6 +82,7 @@
 //! | footprint | side of a pixel, projected to a distance |
 //! | clearance | distance from a visible point to the next object: interreflection changes within a part of it |
 //! | visibility polygon | what is seen of a plane from a visible point in it: what stands there hides photons beyond |
+//! | tilt | a photon counts by how the surface looks where it is gathered, not where it arrived |
 //! | contrast | how much brighter a visible point is in a wider disc: tells the bias of the density estimate |
 //! | bandwidth | radii of density estimates over the film, chosen by the contrasts |
 //! | focused | of photons: sent on by mirrors or glass after they were scattered |
