@@ -33,12 +33,18 @@ pub trait Lanes: Copy {
     fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     /// Without its sign.
     fn abs(self, a: Self::Vector) -> Self::Vector;
+    /// The square root; not a number of what is negative.
+    fn sqrt(self, a: Self::Vector) -> Self::Vector;
+    /// 1 with the sign of `a`.
+    fn sign(self, a: Self::Vector) -> Self::Vector;
     /// Mask of `a < b`.
     fn less(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     /// Mask of `first <= x < first + count`, of unsigned integers; `count` is not 0.
     fn in_range(self, x: &[u32; LANES], first: u32, count: u32) -> Self::Vector;
     /// Both masks, or a number where the mask holds and else 0.
     fn and(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// `a b + c` of single numbers in double precision.
+    fn mul_add_f64(self, a: f64, b: f64, c: f64) -> f64;
     /// A bit for each lane, the first the lowest.
     fn bits(self, mask: Self::Vector) -> u32;
 
@@ -47,6 +53,24 @@ pub trait Lanes: Copy {
     fn sum(self, v: Self::Vector) -> f32 {
         let [a, b, c, d, e, f, g, h] = self.store(v);
         ((a + e) + (c + g)) + ((b + f) + (d + h))
+    }
+
+    /// Vectors from memory.
+    #[inline(always)]
+    fn load3(self, [x, y, z]: &[[f32; LANES]; 3]) -> [Self::Vector; 3] {
+        [self.load(x), self.load(y), self.load(z)]
+    }
+
+    /// The same vector in every lane.
+    #[inline(always)]
+    fn splat3(self, [x, y, z]: [f32; 3]) -> [Self::Vector; 3] {
+        [self.splat(x), self.splat(y), self.splat(z)]
+    }
+
+    /// The same number in every lane, times `a`.
+    #[inline(always)]
+    fn scale(self, factor: f32, a: Self::Vector) -> Self::Vector {
+        self.mul(self.splat(factor), a)
     }
 
     /// `ax bx + ay by + az bz`.
@@ -96,6 +120,10 @@ impl Lanes for Portable {
         a * b + c
     }
     #[inline(always)]
+    fn mul_add_f64(self, a: f64, b: f64, c: f64) -> f64 {
+        a * b + c
+    }
+    #[inline(always)]
     fn max(self, a: f32x8, b: f32x8) -> f32x8 {
         a.fast_max(b)
     }
@@ -106,6 +134,14 @@ impl Lanes for Portable {
     #[inline(always)]
     fn abs(self, a: f32x8) -> f32x8 {
         a.abs()
+    }
+    #[inline(always)]
+    fn sqrt(self, a: f32x8) -> f32x8 {
+        a.sqrt()
+    }
+    #[inline(always)]
+    fn sign(self, a: f32x8) -> f32x8 {
+        f32x8::ONE | (a & f32x8::splat(-0.0))
     }
     #[inline(always)]
     fn less(self, a: f32x8, b: f32x8) -> f32x8 {
@@ -166,6 +202,10 @@ impl Lanes for Avx2 {
         self.fma._mm256_fmadd_ps(a, b, c)
     }
     #[inline(always)]
+    fn mul_add_f64(self, a: f64, b: f64, c: f64) -> f64 {
+        a.mul_add(b, c)
+    }
+    #[inline(always)]
     fn max(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
         self.avx._mm256_max_ps(a, b)
     }
@@ -176,6 +216,14 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn abs(self, a: Self::Vector) -> Self::Vector {
         self.avx._mm256_andnot_ps(self.splat(-0.0), a)
+    }
+    #[inline(always)]
+    fn sqrt(self, a: Self::Vector) -> Self::Vector {
+        self.avx._mm256_sqrt_ps(a)
+    }
+    #[inline(always)]
+    fn sign(self, a: Self::Vector) -> Self::Vector {
+        self.avx._mm256_or_ps(self.splat(1.0), self.avx._mm256_and_ps(self.splat(-0.0), a))
     }
     #[inline(always)]
     fn less(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
@@ -213,7 +261,10 @@ mod tests {
         assert_eq!(l.store(l.max(a, b)), by_lane(f32::max));
         assert_eq!(l.store(l.min(a, b)), by_lane(f32::min));
         assert_eq!(l.store(l.abs(a)), by_lane(|x, _| x.abs()));
+        assert_eq!(l.store(l.sqrt(l.abs(a))), by_lane(|x, _| x.abs().sqrt()));
+        assert_eq!(l.store(l.sign(a)), by_lane(|x, _| 1f32.copysign(x)));
         assert_eq!(l.store(l.mul_add(a, b, l.splat(1.0))), by_lane(|x, y| x * y + 1.0));
+        assert_eq!(l.mul_add_f64(2.0, 3.0, 1.0), 7.0);
         assert_eq!(l.store(l.and(a, l.less(a, b))), by_lane(|x, y| if x < y { x } else { 0.0 }));
         assert_eq!(l.bits(l.less(a, b)), 0b0011_0001);
         assert_eq!(l.bits(l.in_range(&[0, 5, 6, 7, 8, u32::MAX, 4, 1 << 31], 5, 3)), 0b0000_1110);

@@ -1,16 +1,19 @@
 //! Bicubic Bezier patches: evaluate, subdivide, bound, intersect, tessellate.
 
+mod bending;
 mod bpt;
 mod cubic;
 mod mesh;
 mod net;
 mod newton;
+mod node;
 mod normal;
 mod packet;
 mod paraboloid;
 mod patch;
 mod power;
 mod ray_net;
+mod row;
 mod search;
 mod surface;
 mod traverse;

@@ -2,6 +2,8 @@
 
 use super::power::{PowerForm, Tangents};
 use super::unit::UnitRay;
+use crate::math::lanes::Lanes;
+use glam::DVec3;
 
 /// Roots this far outside of a part, in x and y, still count: neighbouring parts and patches overlap by far more than
 /// rounding, hence no ray slips between them, and by far less than anyone can see.
@@ -103,12 +105,19 @@ impl Knowledge {
 
 /// Looks for the root in a part, starting from (x, y).
 #[inline(always)]
-pub(super) fn solve(patch: &PowerForm, ray: &UnitRay, part: &Domain, known: &Knowledge, start: (f64, f64)) -> Outcome {
+pub(super) fn solve(
+    l: impl Lanes,
+    patch: &PowerForm,
+    ray: &UnitRay,
+    part: &Domain,
+    known: &Knowledge,
+    start: (f64, f64),
+) -> Outcome {
     let (mut x, mut y) = start;
     let mut clamped = 0;
     for _ in 0..MAX_STEPS {
-        let p = patch.tangents(x, y);
-        let step = step(&p, ray);
+        let p = patch.tangents(l, x, y);
+        let step = step(l, &p, ray);
         let (next_x, next_y) = (x + step.dx, y + step.dy);
         let length = (step.dx.abs() / part.half_x).max(step.dy.abs() / part.half_y);
         let outside = part.outside(next_x, next_y, 1.0);
@@ -145,10 +154,25 @@ struct Step {
 
 /// The Newton step: to where the ray meets the tangent plane, by Cramer's rule. Not finite where it does not.
 #[inline(always)]
-fn step(p: &Tangents, ray: &UnitRay) -> Step {
+fn step(l: impl Lanes, p: &Tangents, ray: &UnitRay) -> Step {
     let to_ray = ray.origin - p.position;
-    let across_y = p.dy.cross(ray.direction);
-    let slope = p.dx.dot(across_y);
+    let across_y = cross(l, p.dy, ray.direction);
+    let slope = dot(l, p.dx, across_y);
     let inverse = 1.0 / slope;
-    Step { dx: to_ray.dot(across_y) * inverse, dy: p.dx.cross(to_ray).dot(ray.direction) * inverse, slope }
+    let dx = dot(l, to_ray, across_y) * inverse;
+    Step { dx, dy: dot(l, cross(l, p.dx, to_ray), ray.direction) * inverse, slope }
+}
+
+#[inline(always)]
+fn dot(l: impl Lanes, a: DVec3, b: DVec3) -> f64 {
+    l.mul_add_f64(a.x, b.x, l.mul_add_f64(a.y, b.y, a.z * b.z))
+}
+
+#[inline(always)]
+fn cross(l: impl Lanes, a: DVec3, b: DVec3) -> DVec3 {
+    DVec3::new(
+        l.mul_add_f64(a.y, b.z, -(a.z * b.y)),
+        l.mul_add_f64(a.z, b.x, -(a.x * b.z)),
+        l.mul_add_f64(a.x, b.y, -(a.y * b.x)),
+    )
 }

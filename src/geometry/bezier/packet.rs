@@ -1,41 +1,44 @@
-//! Four parts of a patch side by side, and the intersection of a ray with their paraboloids.
+//! Eight parts of a patch side by side, and the intersection of a ray with their paraboloids.
 
 use super::newton::Domain;
 use super::paraboloid::{MARGIN, Paraboloid, ROUNDING};
 use super::unit::UnitRay;
+use crate::math::lanes::{LANES, Lanes};
+use glam::Vec3;
 use std::array::from_fn;
-use wide::f32x4;
 
-/// Up to four parts.
+/// Up to eight parts.
 #[derive(Clone, Debug)]
 pub(super) struct Packet {
-    center: [f32x4; 3],
-    axes: [[f32x4; 3]; 3],
-    hessian: [f32x4; 3],
-    offset: f32x4,
-    extent: [f32x4; 3],
-    error: f32x4,
-    slope_error: [f32x4; 2],
-    convex: [f32; 4],
-    domains: [[f32; 4]; 4],
+    center: [Numbers; 3],
+    axes: [[Numbers; 3]; 3],
+    hessian: [Numbers; 3],
+    offset: Numbers,
+    extent: [Numbers; 3],
+    error: Numbers,
+    slope_error: [Numbers; 2],
+    convex: Numbers,
+    domains: [Numbers; 4],
     /// Bit k is set where there is a part.
     occupied: u32,
 }
 
+type Numbers = [f32; LANES];
+
 /// What the paraboloids leave to do. On each of the two branches of a paraboloid, along which the height of the ray over
 /// it rises or falls, the surface has one root at most.
 pub(super) struct Candidates {
-    /// Bit k: the surface of part k may have a root on its first branch; bit 4 + k: on its second one.
+    /// Bit k: the surface of part k may have a root on its first branch; bit 8 + k: on its second one.
     pub(super) branches: u32,
     /// Bit k: nothing is known of part k.
     pub(super) unknown: u32,
     /// The roots of the paraboloids: z on the ray, and alpha and beta; first branches, then second ones.
-    z: [[f32; 4]; 2],
-    start: [[[f32; 4]; 2]; 2],
+    z: [Numbers; 2],
+    start: [[Numbers; 2]; 2],
     /// By how much z may be off.
-    slack: [f32; 4],
+    slack: Numbers,
     /// The sign of the slope of the height on the first branch.
-    slope: [f32; 4],
+    slope: Numbers,
 }
 
 /// Where to look for the root of one branch.
@@ -52,8 +55,8 @@ impl Candidates {
     /// The branch of a bit of `branches`.
     #[inline(always)]
     pub(super) fn branch(&self, bit: usize) -> Branch {
-        let (branch, k) = (bit / 4, bit % 4);
-        let [alpha, beta] = self.start[branch].map(|x| f64::from(x[k]));
+        let (branch, k) = (bit / LANES, bit % LANES);
+        let [alpha, beta] = [f64::from(self.start[branch][0][k]), f64::from(self.start[branch][1][k])];
         Branch {
             near: self.z[branch][k] - self.slack[k],
             start: (alpha.clamp(-1.0, 1.0), beta.clamp(-1.0, 1.0)),
@@ -63,19 +66,18 @@ impl Candidates {
 }
 
 impl Packet {
-    /// Up to four parts; the rest of the places stay empty.
+    /// Up to eight parts; the rest of the places stay empty.
     pub(super) fn new(parts: &[Paraboloid]) -> Self {
-        debug_assert!((1..=4).contains(&parts.len()), "one to four parts");
+        debug_assert!((1..=LANES).contains(&parts.len()), "one to eight parts");
         let numbers =
-            |f: &dyn Fn(&Paraboloid) -> f64| -> [f32; 4] { from_fn(|k| parts.get(k).map_or(0.0, |p| f(p) as f32)) };
-        let lanes = |f: &dyn Fn(&Paraboloid) -> f64| f32x4::from(numbers(f));
+            |f: &dyn Fn(&Paraboloid) -> f64| -> Numbers { from_fn(|k| parts.get(k).map_or(0.0, |p| f(p) as f32)) };
         // Bounds may not shrink when they are rounded.
-        let bound = |f: &dyn Fn(&Paraboloid) -> f64| lanes(&|p| f(p) * (1.0 + 1e-6));
+        let bound = |f: &dyn Fn(&Paraboloid) -> f64| numbers(&|p| f(p) * (1.0 + 1e-6));
         Self {
-            center: [0, 1, 2].map(|k| lanes(&|p| p.center[k])),
-            axes: [0, 1, 2].map(|a| [0, 1, 2].map(|k| lanes(&|p| p.axes[a][k]))),
-            hessian: [0, 1, 2].map(|k| lanes(&|p| p.hessian[k])),
-            offset: lanes(&|p| p.offset),
+            center: [0, 1, 2].map(|k| numbers(&|p| p.center[k])),
+            axes: [0, 1, 2].map(|a| [0, 1, 2].map(|k| numbers(&|p| p.axes[a][k]))),
+            hessian: [0, 1, 2].map(|k| numbers(&|p| p.hessian[k])),
+            offset: numbers(&|p| p.offset),
             extent: [0, 1, 2].map(|k| bound(&|p| p.extent[k])),
             error: bound(&|p| p.error),
             slope_error: [0, 1].map(|k| bound(&|p| p.slope_error[k])),
@@ -93,8 +95,9 @@ impl Packet {
     /// Part k of the parameter square, and the factor by which it may be enlarged with still one root a branch.
     #[inline(always)]
     pub(super) fn domain(&self, k: usize) -> (Domain, f64) {
-        let [x, y, half_x, half_y] = self.domains.map(|d| f64::from(d[k]));
-        (Domain { x, y, half_x, half_y }, MARGIN * f64::from(self.convex[k]))
+        let [x, y, half_x, half_y] = &self.domains;
+        let at = |of: &Numbers| f64::from(of[k]);
+        (Domain { x: at(x), y: at(y), half_x: at(half_x), half_y: at(half_y) }, MARGIN * f64::from(self.convex[k]))
     }
 
     /// Intersects the ray with the paraboloids.
@@ -106,100 +109,147 @@ impl Packet {
     /// roots of the surface lie where `|h| <= error`, thus where `|h'|^2 >= d - 4 |a| error`; if that is more than
     /// `slope_error` squared, then there is one at most on each side of the vertex. If `d + 4 |a| error < 0`, there is none.
     #[inline(always)]
-    pub(super) fn test(&self, ray: &PacketRay) -> Candidates {
-        let dot = |axis: &[f32x4; 3], v: &[f32x4; 3]| axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
-        let from_center: [f32x4; 3] = from_fn(|k| ray.origin[k] - self.center[k]);
-        let nearest = -dot(&from_center, &ray.direction);
-        let foot: [f32x4; 3] = from_fn(|k| from_center[k] + nearest * ray.direction[k]);
-        let [alpha, beta, gamma] = [0, 1, 2].map(|k| dot(&self.axes[k], &foot));
-        let [d_alpha, d_beta, d_gamma] = [0, 1, 2].map(|k| dot(&self.axes[k], &ray.direction));
-        let [h_aa, h_ab, h_bb] = self.hessian;
-        let (slope_a, slope_b) = (h_aa * alpha + h_ab * beta, h_ab * alpha + h_bb * beta);
-        let half = f32x4::splat(0.5);
-        let c = gamma - self.offset - half * (slope_a * alpha + slope_b * beta);
-        let b = d_gamma - (slope_a * d_alpha + slope_b * d_beta);
-        let a = -half * (h_aa * d_alpha * d_alpha + h_bb * d_beta * d_beta) - h_ab * d_alpha * d_beta;
+    pub(super) fn test<L: Lanes>(&self, l: L, ray: &PacketRay<L>) -> Candidates {
+        let center = l.load3(&self.center);
+        let [x, y, z] = ray.direction;
+        let from_center =
+            [l.sub(ray.origin[0], center[0]), l.sub(ray.origin[1], center[1]), l.sub(ray.origin[2], center[2])];
+        let nearest = l.scale(-1.0, l.dot(from_center, ray.direction));
+        let foot = [
+            l.mul_add(nearest, x, from_center[0]),
+            l.mul_add(nearest, y, from_center[1]),
+            l.mul_add(nearest, z, from_center[2]),
+        ];
+        let [axis_a, axis_b, axis_c] = [l.load3(&self.axes[0]), l.load3(&self.axes[1]), l.load3(&self.axes[2])];
+        let at @ [alpha, beta, gamma] = [l.dot(axis_a, foot), l.dot(axis_b, foot), l.dot(axis_c, foot)];
+        let along @ [d_alpha, d_beta, d_gamma] =
+            [l.dot(axis_a, ray.direction), l.dot(axis_b, ray.direction), l.dot(axis_c, ray.direction)];
+        let [h_aa, h_ab, h_bb] = l.load3(&self.hessian);
+        // Of the paraboloid, by alpha and by beta.
+        let slope_a = l.mul_add(h_aa, alpha, l.mul(h_ab, beta));
+        let slope_b = l.mul_add(h_ab, alpha, l.mul(h_bb, beta));
+        let height = l.mul_add(slope_a, alpha, l.mul(slope_b, beta));
+        let turn_a = l.mul_add(h_aa, d_alpha, l.mul(h_ab, d_beta));
+        let turn_b = l.mul_add(h_ab, d_alpha, l.mul(h_bb, d_beta));
+        let c = l.mul_add(l.splat(-0.5), height, l.sub(gamma, l.load(&self.offset)));
+        let b = l.sub(d_gamma, l.mul_add(slope_a, d_alpha, l.mul(slope_b, d_beta)));
+        let a = l.scale(-0.5, l.mul_add(turn_a, d_alpha, l.mul(turn_b, d_beta)));
 
-        let b_squared = b * b;
-        let discriminant = b_squared - f32x4::splat(4.0) * (a * c);
-        let spread = f32x4::splat(4.0) * (a.abs() * self.error);
-        let steepness = discriminant - spread;
-        let slope_error = self.slope_error[0] * d_alpha.abs() + self.slope_error[1] * d_beta.abs();
-        let known = steepness.simd_gt(slope_error * slope_error + f32x4::splat(2e-6) * b_squared);
-        let none = (discriminant + spread).simd_lt(f32x4::splat(-2e-6) * b_squared);
+        let error = l.load(&self.error);
+        let b_squared = l.mul(b, b);
+        let discriminant = l.mul_add(l.splat(-4.0), l.mul(a, c), b_squared);
+        let spread = l.scale(4.0, l.mul(l.abs(a), error));
+        let steepness = l.sub(discriminant, spread);
+        let [error_a, error_b] = [l.load(&self.slope_error[0]), l.load(&self.slope_error[1])];
+        let slope_error = l.mul_add(error_a, l.abs(d_alpha), l.mul(error_b, l.abs(d_beta)));
+        let known = l.less(l.mul_add(l.splat(2e-6), b_squared, l.mul(slope_error, slope_error)), steepness);
+        let none = l.less(l.mul_add(l.splat(2e-6), b_squared, l.add(discriminant, spread)), l.splat(0.0));
 
-        let sign = b.is_sign_negative().bitselect(-f32x4::ONE, f32x4::ONE);
-        let root = discriminant.sqrt();
-        let sum = b + sign * root;
-        let w = [f32x4::splat(-2.0) * c / sum, -half * sum / a];
-        let slack = self.error / steepness.sqrt();
-        let start = w.map(|w| [alpha + w * d_alpha, beta + w * d_beta]);
-        let z = w.map(|w| w + nearest);
-        let reach = [self.extent[0] + d_alpha.abs() * slack, self.extent[1] + d_beta.abs() * slack];
-        let passes = [0, 1].map(|k| {
-            start[k][0].abs().simd_le(reach[0])
-                & start[k][1].abs().simd_le(reach[1])
-                & (z[k] - slack).simd_le(ray.z_max)
-                & (z[k] + slack).simd_ge(ray.z_min)
-        });
-        let known_bits = known.to_bitmask() & self.occupied;
-        let mut unknown = !(known | none).to_bitmask() & self.occupied;
+        let sign = l.sign(b);
+        let sum = l.mul_add(sign, l.sqrt(discriminant), b);
+        let slack = l.div(error, l.sqrt(steepness));
+        let reach = [
+            l.mul_add(l.abs(d_alpha), slack, l.load(&self.extent[0])),
+            l.mul_add(l.abs(d_beta), slack, l.load(&self.extent[1])),
+        ];
+        let first = Root::new(l, l.div(l.scale(-2.0, c), sum), nearest, &at, &along);
+        let second = Root::new(l, l.div(l.scale(-0.5, sum), a), nearest, &at, &along);
+        let known_bits = l.bits(known) & self.occupied;
+        let branches = [first.counts(l, ray, slack, reach), second.counts(l, ray, slack, reach)];
+        let mut unknown = !(l.bits(known) | l.bits(none)) & self.occupied;
         if unknown != 0 {
-            unknown &= self.boxes_met(ray, nearest, &[alpha, beta, gamma], &[d_alpha, d_beta, d_gamma]);
+            unknown &= self.boxes_met(l, ray, nearest, &at, &along);
         }
         Candidates {
-            branches: (passes[0].to_bitmask() & known_bits) | (passes[1].to_bitmask() & known_bits) << 4,
+            branches: (branches[0] & known_bits) | (branches[1] & known_bits) << LANES,
             unknown,
-            z: z.map(f32x4::to_array),
-            start: start.map(|s| s.map(f32x4::to_array)),
-            slack: slack.to_array(),
-            slope: sign.to_array(),
+            z: [l.store(first.z), l.store(second.z)],
+            start: [[l.store(first.alpha), l.store(first.beta)], [l.store(second.alpha), l.store(second.beta)]],
+            slack: l.store(slack),
+            slope: l.store(sign),
         }
     }
 
     /// The parts whose oriented boxes the ray meets, with the ray in their coordinates.
-    #[cold]
-    fn boxes_met(&self, ray: &PacketRay, nearest: f32x4, at: &[f32x4; 3], along: &[f32x4; 3]) -> u32 {
-        let (mut near, mut far) = (ray.z_min - nearest, ray.z_max - nearest);
-        let tiny = f32x4::splat(1e-12);
+    #[inline(always)]
+    fn boxes_met<L: Lanes>(
+        &self,
+        l: L,
+        ray: &PacketRay<L>,
+        nearest: L::Vector,
+        at: &[L::Vector; 3],
+        along: &[L::Vector; 3],
+    ) -> u32 {
+        let (mut near, mut far) = (l.sub(ray.z_min, nearest), l.sub(ray.z_max, nearest));
         for k in 0..3 {
             // A ray along a face: replaced by one that moves by less than rounding.
-            let speed = along[k].abs().simd_lt(tiny).bitselect(tiny, along[k]);
-            let low = (-self.extent[k] - at[k]) / speed;
-            let high = (self.extent[k] - at[k]) / speed;
-            near = near.fast_max(low.fast_min(high));
-            far = far.fast_min(low.fast_max(high));
+            let speed = l.mul(l.sign(along[k]), l.max(l.abs(along[k]), l.splat(1e-12)));
+            let extent = l.load(&self.extent[k]);
+            let low = l.div(l.sub(l.sub(l.splat(0.0), extent), at[k]), speed);
+            let high = l.div(l.sub(extent, at[k]), speed);
+            near = l.max(near, l.min(low, high));
+            far = l.min(far, l.max(low, high));
         }
-        near.simd_le(far).to_bitmask()
+        l.bits(l.less(near, far))
     }
 }
 
-/// A ray in unit space, ready for tests of four boxes or parts at once.
-pub(super) struct PacketRay {
-    pub(super) origin: [f32x4; 3],
-    direction: [f32x4; 3],
-    pub(super) inverse: [f32x4; 3],
-    pub(super) z_min: f32x4,
-    pub(super) z_max: f32x4,
+/// Where a ray meets the paraboloids of the eight parts, on one of their branches.
+struct Root<L: Lanes> {
+    z: L::Vector,
+    alpha: L::Vector,
+    beta: L::Vector,
 }
 
-impl PacketRay {
+impl<L: Lanes> Root<L> {
+    /// The root at w.
     #[inline(always)]
-    pub(super) fn new(ray: &UnitRay) -> Self {
-        let direction = ray.direction.as_vec3().to_array();
+    fn new(l: L, w: L::Vector, nearest: L::Vector, at: &[L::Vector; 3], along: &[L::Vector; 3]) -> Self {
+        Self { z: l.add(w, nearest), alpha: l.mul_add(w, along[0], at[0]), beta: l.mul_add(w, along[1], at[1]) }
+    }
+
+    /// Where a root of the surface may lie within the part and the range of the ray: a bit a part.
+    #[inline(always)]
+    fn counts(&self, l: L, ray: &PacketRay<L>, slack: L::Vector, reach: [L::Vector; 2]) -> u32 {
+        let over = l.and(l.less(l.abs(self.alpha), reach[0]), l.less(l.abs(self.beta), reach[1]));
+        let within = l.and(l.less(l.sub(self.z, slack), ray.z_max), l.less(ray.z_min, l.add(self.z, slack)));
+        l.bits(l.and(over, within))
+    }
+}
+
+/// A ray in unit space, ready for tests of eight boxes or parts at once.
+pub(super) struct PacketRay<L: Lanes> {
+    pub(super) origin: [L::Vector; 3],
+    direction: [L::Vector; 3],
+    pub(super) inverse: [L::Vector; 3],
+    pub(super) z_min: L::Vector,
+    pub(super) z_max: L::Vector,
+}
+
+impl<L: Lanes> PacketRay<L> {
+    #[inline(always)]
+    pub(super) fn new(l: L, ray: &UnitRay) -> Self {
+        let direction = ray.direction.as_vec3();
+        // No zero, hence no NaN in the test of a box.
+        let inverse = direction.signum() / direction.abs().max(Vec3::splat(1e-20));
         Self {
-            origin: ray.origin.as_vec3().to_array().map(f32x4::splat),
-            direction: direction.map(f32x4::splat),
-            // No zero, hence no NaN in the test of a box.
-            inverse: direction.map(|d| f32x4::splat(1.0 / if d.abs() < 1e-20 { 1e-20f32.copysign(d) } else { d })),
-            z_min: f32x4::splat(ray.z_min as f32 - ROUNDING as f32),
-            z_max: f32x4::splat(ray.z_max as f32 + ROUNDING as f32),
+            origin: l.splat3(ray.origin.as_vec3().to_array()),
+            direction: l.splat3(direction.to_array()),
+            inverse: l.splat3(inverse.to_array()),
+            z_min: l.splat(ray.z_min as f32 - ROUNDING as f32),
+            z_max: l.splat(upper_end(ray)),
         }
     }
 
     /// Lowers the upper end to that of the ray.
     #[inline(always)]
-    pub(super) fn shorten(&mut self, ray: &UnitRay) {
-        self.z_max = f32x4::splat(ray.z_max as f32 + ROUNDING as f32);
+    pub(super) fn shorten(&mut self, l: L, ray: &UnitRay) {
+        self.z_max = l.splat(upper_end(ray));
     }
+}
+
+/// The upper end of what still counts, rounded up.
+#[inline(always)]
+pub(super) fn upper_end(ray: &UnitRay) -> f32 {
+    ray.z_max as f32 + ROUNDING as f32
 }

@@ -44,15 +44,11 @@ impl Paraboloid {
     /// Describes the part over `domain`; `net` is the net over the domain enlarged by [`MARGIN`].
     pub(super) fn new(net: &ControlNet, domain: Domain) -> Self {
         let [[p00, .., p03], _, _, [p30, .., p33]] = net.points;
-        let (a, b) = (0.25 * ((p33 - p00) + (p30 - p03)), 0.25 * ((p33 - p00) - (p30 - p03)));
         let center = rounded(0.25 * ((p00 + p33) + (p03 + p30)));
-        let normal = a.cross(b);
-        if normal.length() <= 1e-6 * a.length() * b.length() || normal.length() < 1e-12 {
+        let Some(axes) = mean_gradients(net) else {
             return Self::shapeless(net, domain, center);
-        }
-        let normal = normal.normalize();
-        let (across_b, across_a) = (b.cross(normal), normal.cross(a));
-        let axes = [across_b / across_b.dot(a), across_a / across_a.dot(b), normal].map(rounded);
+        };
+        let axes = axes.map(rounded);
         Self { axes, ..Self::shapeless(net, domain, center) }.fitted(net)
     }
 
@@ -129,6 +125,20 @@ impl Paraboloid {
         self.error = (high - self.offset).max(self.offset - low) + rounding;
         self.slope_error = [by_s + mixed + rounding, by_t + mixed + rounding];
     }
+}
+
+/// The gradients of coordinates (alpha, beta, gamma) in which a part is on average `(s, t, 0)`, with s and t its parameters
+/// from -1 to 1; that of gamma has unit length. None where the mean partial derivatives span no plane.
+pub(super) fn mean_gradients(net: &ControlNet) -> Option<[DVec3; 3]> {
+    let [[p00, .., p03], _, _, [p30, .., p33]] = net.points;
+    let (a, b) = (0.25 * ((p33 - p00) + (p30 - p03)), 0.25 * ((p33 - p00) - (p30 - p03)));
+    let normal = a.cross(b);
+    if normal.length() <= 1e-6 * a.length() * b.length() || normal.length() < 1e-12 {
+        return None;
+    }
+    let normal = normal.normalize();
+    let (across_b, across_a) = (b.cross(normal), normal.cross(a));
+    Some([across_b / across_b.dot(a), across_a / across_a.dot(b), normal])
 }
 
 /// The vector with its coordinates rounded to `f32`.

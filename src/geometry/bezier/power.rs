@@ -1,14 +1,15 @@
 use super::ControlNet;
+use super::row::Row;
+use crate::math::lanes::Lanes;
 use glam::DVec3;
 use std::array::from_fn;
-use std::ops::{Add, Mul};
 
 /// A patch as a polynomial in `x = 2 u - 1`, `y = 2 v - 1`: the quickest form to evaluate. On `[-1, 1]` it loses no
 /// digits against the Bernstein form: its coefficients are no larger than the control points.
 #[derive(Clone, Debug)]
 pub(super) struct PowerForm {
-    /// `coefficients[i][j]` belongs to `x^i y^j`.
-    coefficients: [[Lanes; 4]; 4],
+    /// `coefficients[i][j]`, three coordinates and a zero, belongs to `x^i y^j`.
+    coefficients: [[Row; 4]; 4],
 }
 
 /// The point at some x, y with the derivatives by x and by y.
@@ -19,57 +20,36 @@ pub(super) struct Tangents {
     pub(super) dy: DVec3,
 }
 
-/// Three coordinates and a zero, which compilers turn into vector instructions of any width.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
-struct Lanes([f64; 4]);
-
-impl Add for Lanes {
-    type Output = Self;
+impl From<Row> for DVec3 {
     #[inline(always)]
-    fn add(self, b: Self) -> Self {
-        Self([self.0[0] + b.0[0], self.0[1] + b.0[1], self.0[2] + b.0[2], self.0[3] + b.0[3]])
-    }
-}
-
-impl Mul<f64> for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, s: f64) -> Self {
-        Self([self.0[0] * s, self.0[1] * s, self.0[2] * s, self.0[3] * s])
-    }
-}
-
-impl From<Lanes> for DVec3 {
-    #[inline(always)]
-    fn from(v: Lanes) -> Self {
+    fn from(v: Row) -> Self {
         Self::new(v.0[0], v.0[1], v.0[2])
     }
 }
 
 /// A cubic and its derivative at t, by Horner's scheme.
 #[inline(always)]
-fn horner(c: &[Lanes; 4], t: f64) -> (Lanes, Lanes) {
-    let b2 = c[3] * t + c[2];
-    let b1 = b2 * t + c[1];
-    let slope = (c[3] * t + b2) * t + b1;
-    (b1 * t + c[0], slope)
+fn horner(l: impl Lanes, c: &[Row; 4], t: f64) -> (Row, Row) {
+    let b2 = c[3].mul_add(l, t, c[2]);
+    let b1 = b2.mul_add(l, t, c[1]);
+    let slope = c[3].mul_add(l, t, b2).mul_add(l, t, b1);
+    (b1.mul_add(l, t, c[0]), slope)
 }
 
 impl PowerForm {
     pub(super) fn new(net: &ControlNet) -> Self {
         let along_v = net.points.map(power_from_bernstein);
         let along_u: [[DVec3; 4]; 4] = from_fn(|j| power_from_bernstein(from_fn(|i| along_v[i][j])));
-        Self { coefficients: from_fn(|i| from_fn(|j| Lanes([along_u[j][i].x, along_u[j][i].y, along_u[j][i].z, 0.0]))) }
+        Self { coefficients: from_fn(|i| from_fn(|j| Row([along_u[j][i].x, along_u[j][i].y, along_u[j][i].z, 0.0]))) }
     }
 
     /// Evaluates at (x, y).
     #[inline(always)]
-    pub(super) fn tangents(&self, x: f64, y: f64) -> Tangents {
+    pub(super) fn tangents(&self, l: impl Lanes, x: f64, y: f64) -> Tangents {
         let [r0, r1, r2, r3] = &self.coefficients;
-        let (r0, r1, r2, r3) = (horner(r0, y), horner(r1, y), horner(r2, y), horner(r3, y));
-        let (position, dx) = horner(&[r0.0, r1.0, r2.0, r3.0], x);
-        let dy = ((r3.1 * x + r2.1) * x + r1.1) * x + r0.1;
+        let (r0, r1, r2, r3) = (horner(l, r0, y), horner(l, r1, y), horner(l, r2, y), horner(l, r3, y));
+        let (position, dx) = horner(l, &[r0.0, r1.0, r2.0, r3.0], x);
+        let dy = r3.1.mul_add(l, x, r2.1).mul_add(l, x, r1.1).mul_add(l, x, r0.1);
         Tangents { position: position.into(), dx: dx.into(), dy: dy.into() }
     }
 }
@@ -88,6 +68,7 @@ fn power_from_bernstein(p: [DVec3; 4]) -> [DVec3; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::lanes::Portable;
 
     #[test]
     fn agrees_with_de_casteljau() {
@@ -105,7 +86,7 @@ mod tests {
         let power = PowerForm::new(&net);
         for k in 0..=100 {
             let (u, v) = (f64::from(k % 11) / 10.0, f64::from(k / 10) / 10.0);
-            let (a, b) = (power.tangents(2.0 * u - 1.0, 2.0 * v - 1.0), net.derivatives(u, v));
+            let (a, b) = (power.tangents(Portable, 2.0 * u - 1.0, 2.0 * v - 1.0), net.derivatives(u, v));
             // Twenty roundings of terms below 4.
             assert!(a.position.distance(b.position) < 1e-14, "position at {u} {v}");
             assert!((2.0 * a.dx).distance(b.dpdu) < 1e-13, "d/du at {u} {v}");

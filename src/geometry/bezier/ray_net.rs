@@ -2,12 +2,10 @@
 
 use super::ControlNet;
 use super::newton::Domain;
+use super::row::{Row, Rows, transpose};
 use super::unit::UnitRay;
 use crate::math::Frame;
 use glam::DVec2;
-use std::array::from_fn;
-
-type Rows = [[f64; 4]; 4];
 
 /// The control points of a part of a patch along and across a ray, `rows[i][j]` with i along u: z along its direction,
 /// x = y = 0 on the ray.
@@ -33,8 +31,16 @@ impl RayNet {
     #[inline(always)]
     pub(super) fn new(net: &ControlNet, ray: &UnitRay) -> Self {
         let frame = Frame::from_normal(ray.direction);
-        let axis = |axis| net.points.map(|row| row.map(|p| (p - ray.origin).dot(axis)));
-        Self { x: axis(frame.tangent), y: axis(frame.bitangent), z: axis(frame.normal) }
+        let mut rows = Self { x: [Row::ZERO; 4], y: [Row::ZERO; 4], z: [Row::ZERO; 4] };
+        for i in 0..4 {
+            for j in 0..4 {
+                let p = net.points[i][j] - ray.origin;
+                rows.x[i].0[j] = p.dot(frame.tangent);
+                rows.y[i].0[j] = p.dot(frame.bitangent);
+                rows.z[i].0[j] = p.dot(frame.normal);
+            }
+        }
+        rows
     }
 
     /// The net of a part.
@@ -42,9 +48,8 @@ impl RayNet {
     pub(super) fn restricted(&self, part: &Domain) -> Self {
         let ends = |middle: f64, half: f64| [0.5 * (middle - half) + 0.5, 0.5 * (middle + half) + 0.5];
         let ([u0, u1], [v0, v1]) = (ends(part.x, part.half_x), ends(part.y, part.half_y));
-        let [x, y, z] =
-            [&self.x, &self.y, &self.z].map(|rows| transpose(&restrict(&transpose(&restrict(rows, u0, u1)), v0, v1)));
-        Self { x, y, z }
+        let part = |rows: &Rows| transpose(&restrict(&transpose(&restrict(rows, u0, u1)), v0, v1));
+        Self { x: part(&self.x), y: part(&self.y), z: part(&self.z) }
     }
 
     /// Whether all control points lie on one side of the ray by more than `slack`, or before or behind the given range.
@@ -69,15 +74,21 @@ impl RayNet {
     /// The halves `u <= 1/2` and `u >= 1/2`.
     #[inline(always)]
     pub(super) fn split_u(&self) -> [Self; 2] {
-        let [x, y, z] = [halves(&self.x), halves(&self.y), halves(&self.z)];
-        [0, 1].map(|k| Self { x: x[k], y: y[k], z: z[k] })
+        let ([x0, x1], [y0, y1], [z0, z1]) = (halves(&self.x), halves(&self.y), halves(&self.z));
+        [Self { x: x0, y: y0, z: z0 }, Self { x: x1, y: y1, z: z1 }]
     }
 
     /// The halves `v <= 1/2` and `v >= 1/2`.
     #[inline(always)]
     pub(super) fn split_v(&self) -> [Self; 2] {
-        let [x, y, z] = [&self.x, &self.y, &self.z].map(|rows| halves(&transpose(rows)));
-        [0, 1].map(|k| Self { x: transpose(&x[k]), y: transpose(&y[k]), z: transpose(&z[k]) })
+        let [a, b] = self.transposed().split_u();
+        [a.transposed(), b.transposed()]
+    }
+
+    /// The same surface with the roles of u and v exchanged.
+    #[inline(always)]
+    fn transposed(&self) -> Self {
+        Self { x: transpose(&self.x), y: transpose(&self.y), z: transpose(&self.z) }
     }
 
     /// The part turned about the ray until x runs along the longer of its mean partial derivatives: a long and narrow
@@ -95,7 +106,7 @@ impl RayNet {
     /// The means of the partial derivatives of (x, y), with parameters from -1 to 1.
     #[inline(always)]
     fn mean_derivatives(&self) -> [DVec2; 2] {
-        let corner = |i: usize, j: usize| DVec2::new(self.x[i][j], self.y[i][j]);
+        let corner = |i: usize, j: usize| DVec2::new(self.x[i].0[j], self.y[i].0[j]);
         let diagonals = (corner(3, 3) - corner(0, 0), corner(3, 0) - corner(0, 3));
         [0.25 * (diagonals.0 + diagonals.1), 0.25 * (diagonals.0 - diagonals.1)]
     }
@@ -114,8 +125,8 @@ impl RayNet {
         let y = combine(-du.y, &self.x, du.x, &self.y);
         let (xt, yt) = (transpose(&x), transpose(&y));
         // 1.5 times the step between control points: three steps for parameters from -1 to 1.
-        let norm_x = largest(&differences::<4, 3>(&x), 1.5, 1.0) + largest(&differences::<4, 3>(&xt), 1.5, 0.0);
-        let norm_y = largest(&differences::<4, 3>(&y), 1.5, 0.0) + largest(&differences::<4, 3>(&yt), 1.5, 1.0);
+        let norm_x = largest(&steps(&x), 1.5, 1.0) + largest(&steps(&xt), 1.5, 0.0);
+        let norm_y = largest(&steps(&y), 1.5, 0.0) + largest(&steps(&yt), 1.5, 1.0);
         Some(Affine {
             is_missed: excludes_zero(range(&x), 1e-9) || excludes_zero(range(&y), 1e-9),
             nonlinearity: norm_x.max(norm_y),
@@ -130,12 +141,13 @@ impl RayNet {
         let (mut long, mut bend, mut twist) = ([0f64; 2], [0f64; 2], 0f64);
         for rows in [&self.x, &self.y] {
             for (axis, rows) in [*rows, transpose(rows)].iter().enumerate() {
-                let steps = differences::<4, 3>(rows);
-                long[axis] = long[axis].max(largest(&steps, 1.0, 0.0));
-                bend[axis] = bend[axis].max(largest(&differences::<3, 2>(&steps), 1.0, 0.0));
+                let [a, b, c] = steps(rows);
+                long[axis] = long[axis].max(largest(&[a, b, c], 1.0, 0.0));
+                bend[axis] = bend[axis].max(largest(&[b - a, c - b], 1.0, 0.0));
                 if axis == 0 {
-                    let twists = steps.map(|row| [row[1] - row[0], row[2] - row[1], row[3] - row[2], 0.0]);
-                    twist = twist.max(largest(&twists, 1.0, 0.0));
+                    // Across the other axis: a step from each entry to the next.
+                    let next = |Row([_, b, c, d]): Row| Row([b, c, d, d]);
+                    twist = twist.max(largest(&[next(a) - a, next(b) - b, next(c) - c], 1.0, 0.0));
                 }
             }
         }
@@ -145,7 +157,7 @@ impl RayNet {
         if bend[0].max(bend[1]) > 1e-3 * long[0].max(long[1]) {
             return bend[0] >= bend[1];
         }
-        let [deep_u, deep_v] = [self.z, transpose(&self.z)].map(|z| largest(&differences::<4, 3>(&z), 1.0, 0.0));
+        let [deep_u, deep_v] = [self.z, transpose(&self.z)].map(|z| largest(&steps(&z), 1.0, 0.0));
         deep_u.max(long[0]) >= deep_v.max(long[1])
     }
 }
@@ -158,59 +170,41 @@ fn excludes_zero((low, high): (f64, f64), slack: f64) -> bool {
 /// The mean of the four corners.
 #[inline(always)]
 fn middle(rows: &Rows) -> f64 {
-    0.25 * ((rows[0][0] + rows[3][3]) + (rows[0][3] + rows[3][0]))
+    0.25 * ((rows[0].0[0] + rows[3].0[3]) + (rows[0].0[3] + rows[3].0[0]))
 }
 
 /// `a x + b y`, for each entry.
 #[inline(always)]
 fn combine(a: f64, x: &Rows, b: f64, y: &Rows) -> Rows {
-    from_fn(|i| from_fn(|j| a * x[i][j] + b * y[i][j]))
+    let row = |k: usize| x[k] * a + y[k] * b;
+    [row(0), row(1), row(2), row(3)]
 }
 
-/// The `S = R - 1` differences of neighbours along the first index.
+/// The differences of neighbouring rows.
 #[inline(always)]
-fn differences<const R: usize, const S: usize>(rows: &[[f64; 4]; R]) -> [[f64; 4]; S] {
-    from_fn(|i| from_fn(|j| rows[i + 1][j] - rows[i][j]))
-}
-
-#[inline(always)]
-fn transpose(rows: &Rows) -> Rows {
-    from_fn(|i| from_fn(|j| rows[j][i]))
+fn steps(rows: &Rows) -> [Row; 3] {
+    [rows[1] - rows[0], rows[2] - rows[1], rows[3] - rows[2]]
 }
 
 /// The largest absolute value of `scale * entry - offset`.
 #[inline(always)]
-fn largest<const R: usize>(rows: &[[f64; 4]; R], scale: f64, offset: f64) -> f64 {
-    let mut columns = [0f64; 4];
-    for row in rows {
-        for (largest, entry) in columns.iter_mut().zip(row) {
-            let x = (scale * entry - offset).abs();
-            *largest = if x > *largest { x } else { *largest };
-        }
-    }
-    columns[0].max(columns[1]).max(columns[2].max(columns[3]))
+fn largest<const N: usize>(rows: &[Row; N], scale: f64, offset: f64) -> f64 {
+    rows.iter().fold(Row::ZERO, |largest, row| (*row * scale - Row::splat(offset)).abs().max(largest)).greatest()
 }
 
 /// The smallest and the largest entry.
 #[inline(always)]
-fn range(rows: &Rows) -> (f64, f64) {
-    let (mut low, mut high) = (rows[0], rows[0]);
-    for row in &rows[1..] {
-        for k in 0..4 {
-            low[k] = if row[k] < low[k] { row[k] } else { low[k] };
-            high[k] = if row[k] > high[k] { row[k] } else { high[k] };
-        }
-    }
-    (low[0].min(low[1]).min(low[2].min(low[3])), high[0].max(high[1]).max(high[2].max(high[3])))
+fn range([a, b, c, d]: &Rows) -> (f64, f64) {
+    (a.min(*b).min(c.min(*d)).least(), a.max(*b).max(c.max(*d)).greatest())
 }
 
 /// De Casteljau's scheme at 1/2 along the first index.
 #[inline(always)]
 fn halves(rows: &Rows) -> [Rows; 2] {
-    let middle = |a: &[f64; 4], b: &[f64; 4]| -> [f64; 4] { from_fn(|k| 0.5 * (a[k] + b[k])) };
-    let (a, b, c) = (middle(&rows[0], &rows[1]), middle(&rows[1], &rows[2]), middle(&rows[2], &rows[3]));
-    let (d, e) = (middle(&a, &b), middle(&b, &c));
-    let m = middle(&d, &e);
+    let middle = |a: Row, b: Row| (a + b) * 0.5;
+    let (a, b, c) = (middle(rows[0], rows[1]), middle(rows[1], rows[2]), middle(rows[2], rows[3]));
+    let (d, e) = (middle(a, b), middle(b, c));
+    let m = middle(d, e);
     [[rows[0], a, d, m], [m, e, c, rows[3]]]
 }
 
@@ -218,9 +212,9 @@ fn halves(rows: &Rows) -> [Rows; 2] {
 /// three values, each of them `low` or `high`.
 #[inline(always)]
 fn restrict(rows: &Rows, low: f64, high: f64) -> Rows {
-    let mix = |a: &[f64; 4], b: &[f64; 4], t: f64| -> [f64; 4] { from_fn(|k| (1.0 - t) * a[k] + t * b[k]) };
-    let steps = |t: f64| [mix(&rows[0], &rows[1], t), mix(&rows[1], &rows[2], t), mix(&rows[2], &rows[3], t)];
+    let mix = |a: Row, b: Row, t: f64| a * (1.0 - t) + b * t;
+    let steps = |t: f64| [mix(rows[0], rows[1], t), mix(rows[1], rows[2], t), mix(rows[2], rows[3], t)];
     let ([a, b, c], [d, e, f]) = (steps(low), steps(high));
-    let (ab, bc, de, ef) = (mix(&a, &b, low), mix(&b, &c, low), mix(&d, &e, high), mix(&e, &f, high));
-    [mix(&ab, &bc, low), mix(&ab, &bc, high), mix(&de, &ef, low), mix(&de, &ef, high)]
+    let (ab, bc, de, ef) = (mix(a, b, low), mix(b, c, low), mix(d, e, high), mix(e, f, high));
+    [mix(ab, bc, low), mix(ab, bc, high), mix(de, ef, low), mix(de, ef, high)]
 }

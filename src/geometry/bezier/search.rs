@@ -4,6 +4,10 @@
 use super::newton::{Domain, Knowledge, Outcome, Root, solve};
 use super::ray_net::RayNet;
 use super::traverse::Walk;
+#[cfg(target_arch = "x86_64")]
+use crate::math::lanes::Avx2;
+use crate::math::lanes::{Lanes, Portable};
+use arrayvec::ArrayVec;
 use multiversion::multiversion;
 
 /// A piece within a box of this size around the ray is a hit even where no single root can be told apart: at a point
@@ -16,54 +20,72 @@ const ROUNDING: f64 = 1e-14;
 /// Halvings after which what is left is a miss.
 const MAX_DEPTH: usize = 80;
 
+/// Each halving leaves one half for later.
+const MAX_OPEN: usize = MAX_DEPTH + 1;
+
+/// Part of the part to be searched.
+struct Piece {
+    net: RayNet,
+    domain: Domain,
+    depth: usize,
+}
+
 /// Finds the nearest root in a part of the patch.
 #[cold]
-#[multiversion(targets("x86_64+avx+avx2+fma"))]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 pub(super) fn subdivide(walk: &mut Walk, part: &Domain) {
-    let net = RayNet::new(&walk.patch.net, &walk.ray).restricted(part);
-    visit_piece(walk, &net, part, 0);
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = Avx2::try_new() {
+        return search(avx2, walk, part);
+    }
+    search(Portable, walk, part);
 }
 
-#[multiversion(targets("x86_64+avx+avx2+fma"))]
-fn visit_piece(walk: &mut Walk, piece: &RayNet, domain: &Domain, depth: usize) {
-    if walk.pieces_left == 0 || piece.misses(walk.ray.z_min, walk.ray.z_max, ROUNDING) {
-        return;
-    }
-    walk.pieces_left -= 1;
-    let outcome = match piece.affine() {
-        Some(affine) if affine.is_missed => Outcome::None,
-        Some(affine) => Knowledge::from_nonlinearity(affine.nonlinearity).map_or(Outcome::Unknown, |known| {
-            let [s, t] = affine.start.map(|x| x.clamp(-1.0, 1.0));
-            let start = (domain.x + s * domain.half_x, domain.y + t * domain.half_y);
-            solve(&walk.patch.power, &walk.ray, domain, &known, start)
-        }),
-        None => Outcome::Unknown,
-    };
-    match outcome {
-        Outcome::Root(root) => walk.accept(root),
-        Outcome::None => {}
-        Outcome::Unknown => split_piece(walk, piece, domain, depth),
-    }
-}
-
-/// Visits the halves, the nearer one first; takes a piece that has become a point for a hit.
 #[inline(always)]
-fn split_piece(walk: &mut Walk, piece: &RayNet, domain: &Domain, depth: usize) {
-    let piece = piece.turned();
-    let [x, y, z] = piece.ranges();
-    if depth == MAX_DEPTH || piece.misses(walk.ray.z_min, walk.ray.z_max, ROUNDING) {
+fn search(l: impl Lanes, walk: &mut Walk, part: &Domain) {
+    let mut open: ArrayVec<Piece, MAX_OPEN> = ArrayVec::new();
+    let net = RayNet::new(&walk.patch.net, &walk.ray).restricted(part);
+    open.push(Piece { net, domain: *part, depth: 0 });
+    while let Some(Piece { net, domain, depth }) = open.pop() {
+        if walk.pieces_left == 0 || net.misses(walk.ray.z_min, walk.ray.z_max, ROUNDING) {
+            continue;
+        }
+        walk.pieces_left -= 1;
+        let outcome = match net.affine() {
+            Some(affine) if affine.is_missed => Outcome::None,
+            Some(affine) => match Knowledge::from_nonlinearity(affine.nonlinearity) {
+                Some(known) => {
+                    let [s, t] = [affine.start[0].clamp(-1.0, 1.0), affine.start[1].clamp(-1.0, 1.0)];
+                    let start = (domain.x + s * domain.half_x, domain.y + t * domain.half_y);
+                    solve(l, &walk.patch.power, &walk.ray, &domain, &known, start)
+                }
+                None => Outcome::Unknown,
+            },
+            None => Outcome::Unknown,
+        };
+        match outcome {
+            Outcome::Root(root) => walk.accept(root),
+            Outcome::None => {}
+            Outcome::Unknown if depth == MAX_DEPTH => {}
+            Outcome::Unknown => split(walk, &net.turned(), &domain, depth, &mut open),
+        }
+    }
+}
+
+/// Leaves the halves of a piece for later, the nearer one on top; takes a piece that has become a point for a hit.
+#[inline(always)]
+fn split(walk: &mut Walk, net: &RayNet, domain: &Domain, depth: usize, open: &mut ArrayVec<Piece, MAX_OPEN>) {
+    let [x, y, z] = net.ranges();
+    if net.misses(walk.ray.z_min, walk.ray.z_max, ROUNDING) {
         return;
     }
-    if [x, y, z].iter().all(|(low, high)| high - low <= TOUCHING) {
+    if (x.1 - x.0).max(y.1 - y.0).max(z.1 - z.0) <= TOUCHING {
         return walk.accept(Root { x: domain.x, y: domain.y, z: 0.5 * (z.0 + z.1) });
     }
-    let (nets, domains) = if piece.splits_across_u() {
-        (piece.split_u(), domain.halves_x())
-    } else {
-        (piece.split_v(), domain.halves_y())
-    };
+    let (nets, domains) =
+        if net.splits_across_u() { (net.split_u(), domain.halves_x()) } else { (net.split_v(), domain.halves_y()) };
     let nearer = usize::from(nets[1].middle_z() < nets[0].middle_z());
-    for k in [nearer, 1 - nearer] {
-        visit_piece(walk, &nets[k], &domains[k], depth + 1);
+    for k in [1 - nearer, nearer] {
+        open.push(Piece { net: nets[k], domain: domains[k], depth: depth + 1 });
     }
 }

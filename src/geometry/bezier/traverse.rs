@@ -1,12 +1,16 @@
 //! From a ray to its nearest hit: down the tree of parts, nearest first.
 
 use super::newton::{Knowledge, Outcome, Root, solve};
-use super::packet::{Packet, PacketRay};
+use super::packet::{Candidates, Packet, PacketRay, upper_end};
 use super::paraboloid::MARGIN;
 use super::patch::Prepared;
 use super::search::subdivide;
 use super::tree::{Link, Target};
 use super::unit::UnitRay;
+#[cfg(target_arch = "x86_64")]
+use crate::math::lanes::Avx2;
+use crate::math::lanes::{LANES, Lanes, Portable};
+use arrayvec::ArrayVec;
 use multiversion::multiversion;
 
 /// A root that counts, with the parameter t of the scene ray.
@@ -16,8 +20,8 @@ pub(super) struct Hit {
     pub(super) t: f64,
 }
 
-/// A tree of at most 12 halvings has 6 levels of nodes, each of which leaves 3 siblings behind.
-const STACK_SIZE: usize = 32;
+/// A tree of at most 12 halvings has 12 levels of nodes at most, each of which leaves 7 siblings behind.
+const STACK_SIZE: usize = 88;
 
 /// Pieces looked at by subdivision before it gives up on a ray that runs within the surface; rays that merely graze it
 /// need a few dozen.
@@ -27,7 +31,6 @@ const MAX_PIECES: usize = 5_000;
 pub(super) struct Walk<'a> {
     pub(super) patch: &'a Prepared,
     pub(super) ray: UnitRay,
-    packet_ray: PacketRay,
     best: Option<Hit>,
     pub(super) pieces_left: usize,
 }
@@ -35,68 +38,57 @@ pub(super) struct Walk<'a> {
 impl<'a> Walk<'a> {
     #[inline(always)]
     pub(super) fn new(patch: &'a Prepared, ray: UnitRay) -> Self {
-        Self { patch, packet_ray: PacketRay::new(&ray), ray, best: None, pieces_left: MAX_PIECES }
+        Self { patch, ray, best: None, pieces_left: MAX_PIECES }
     }
 
     /// The nearest hit, or with `ANY` the first to be found.
     #[inline(always)]
-    pub(super) fn run<const ANY: bool>(mut self) -> Option<Hit> {
-        let mut stack = [(f32::NEG_INFINITY, self.patch.tree.root()); STACK_SIZE];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (near, link) = stack[height];
-            if near > self.z_max() {
+    pub(super) fn run<L: Lanes, const ANY: bool>(mut self, l: L) -> Option<Hit> {
+        let mut ray = PacketRay::new(l, &self.ray);
+        let mut stack: ArrayVec<(f32, Link), STACK_SIZE> = ArrayVec::new();
+        stack.push((f32::NEG_INFINITY, self.patch.tree.root()));
+        while let Some((near, link)) = stack.pop() {
+            if near > upper_end(&self.ray) {
                 continue;
             }
             match self.patch.tree.follow(link) {
                 Target::Node(node) => {
-                    let (mask, near) = node.test(&self.packet_ray);
-                    height = push_farthest_first(&mut stack, height, mask, |k| (near[k], node.child(k)));
+                    let (mask, near) = node.test(l, &ray);
+                    push_farthest_first(&mut stack, mask, |k| (near[k], node.child(k)));
                 }
                 Target::Packet(packet) => {
-                    self.visit_packet(packet);
+                    self.visit_packet(l, packet, &packet.test(l, &ray));
                     if ANY && self.best.is_some() {
                         return self.best;
                     }
+                    ray.shorten(l, &self.ray);
                 }
             }
         }
         self.best
     }
 
+    /// Looks for roots where the paraboloids of a packet leave any.
     #[inline(always)]
-    fn visit_packet(&mut self, packet: &Packet) {
-        let candidates = packet.test(&self.packet_ray);
-        let mut branches = candidates.branches;
-        while branches != 0 {
-            let bit = branches.trailing_zeros() as usize;
-            branches &= branches - 1;
+    fn visit_packet(&mut self, l: impl Lanes, packet: &Packet, candidates: &Candidates) {
+        for bit in bits(candidates.branches) {
             let branch = candidates.branch(bit);
-            if branch.near > self.z_max() {
+            if branch.near > upper_end(&self.ray) {
                 continue;
             }
-            let (part, enlarged) = packet.domain(bit % 4);
+            let (part, enlarged) = packet.domain(bit % LANES);
             let start =
                 (part.x + branch.start.0 * MARGIN * part.half_x, part.y + branch.start.1 * MARGIN * part.half_y);
             let known = Knowledge { enlarged, slope: branch.slope, reach: f64::INFINITY };
-            match solve(&self.patch.power, &self.ray, &part, &known, start) {
+            match solve(l, &self.patch.power, &self.ray, &part, &known, start) {
                 Outcome::Root(root) => self.accept(root),
                 Outcome::None => {}
                 Outcome::Unknown => subdivide(self, &part),
             }
         }
-        let mut unknown = candidates.unknown;
-        while unknown != 0 {
-            subdivide(self, &packet.domain(unknown.trailing_zeros() as usize).0);
-            unknown &= unknown - 1;
+        for k in bits(candidates.unknown) {
+            subdivide(self, &packet.domain(k).0);
         }
-    }
-
-    /// The upper end of what still counts, rounded up.
-    #[inline(always)]
-    fn z_max(&self) -> f32 {
-        self.packet_ray.z_max.to_array()[0]
     }
 
     /// Keeps a root if it is the nearest so far.
@@ -107,42 +99,50 @@ impl<'a> Walk<'a> {
         {
             self.best = Some(Hit { root, t });
             self.ray.z_max = root.z;
-            self.packet_ray.shorten(&self.ray);
         }
     }
+}
+
+/// The places of the bits that are set, in rising order.
+#[inline(always)]
+fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = (mask != 0).then(|| mask.trailing_zeros() as usize);
+        mask &= mask.wrapping_sub(1);
+        bit
+    })
 }
 
 /// Pushes what the mask names, in the order in which it is to be left for later: the nearest on top.
 #[inline(always)]
-fn push_farthest_first(
-    stack: &mut [(f32, Link); STACK_SIZE],
-    height: usize,
-    mut mask: u32,
-    child: impl Fn(usize) -> (f32, Link),
-) -> usize {
-    let mut top = height;
-    while mask != 0 {
-        let entry = child(mask.trailing_zeros() as usize);
-        mask &= mask - 1;
-        let mut place = top;
-        while place > height && stack[place - 1].0 < entry.0 {
-            stack[place] = stack[place - 1];
+fn push_farthest_first(stack: &mut ArrayVec<(f32, Link), STACK_SIZE>, mask: u32, child: impl Fn(usize) -> (f32, Link)) {
+    let bottom = stack.len();
+    for k in bits(mask) {
+        stack.push(child(k));
+        let mut place = stack.len() - 1;
+        while place > bottom && stack[place - 1].0 < stack[place].0 {
+            stack.swap(place - 1, place);
             place -= 1;
         }
-        stack[place] = entry;
-        top += 1;
     }
-    top
 }
 
 /// The nearest hit of a ray.
-#[multiversion(targets("x86_64+avx+avx2+fma"))]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 pub(super) fn nearest_hit(patch: &Prepared, ray: UnitRay) -> Option<Hit> {
-    Walk::new(patch, ray).run::<false>()
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = Avx2::try_new() {
+        return Walk::new(patch, ray).run::<_, false>(avx2);
+    }
+    Walk::new(patch, ray).run::<_, false>(Portable)
 }
 
 /// Whether a ray has any hit.
-#[multiversion(targets("x86_64+avx+avx2+fma"))]
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 pub(super) fn has_hit(patch: &Prepared, ray: UnitRay) -> bool {
-    Walk::new(patch, ray).run::<true>().is_some()
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = Avx2::try_new() {
+        return Walk::new(patch, ray).run::<_, true>(avx2).is_some();
+    }
+    Walk::new(patch, ray).run::<_, true>(Portable).is_some()
 }

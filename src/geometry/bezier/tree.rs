@@ -1,19 +1,14 @@
 //! A patch cut into nearly flat parts, and the tree of boxes over them.
 
 use super::ControlNet;
+use super::bending::{SHAPELESS, bending};
 use super::newton::Domain;
-use super::packet::{Packet, PacketRay};
-use super::paraboloid::{MARGIN, Paraboloid, ROUNDING};
-use crate::math::Aabb;
-use crate::math::float::{round_down, round_up};
+use super::node::Node;
+use super::packet::Packet;
+use super::paraboloid::{MARGIN, Paraboloid};
+use crate::math::lanes::LANES;
 use glam::DVec3;
-use std::array::from_fn;
 use std::collections::BinaryHeap;
-use wide::f32x4;
-
-/// Parts with [`turns`] below this stay whole: nearly every ray is then decided by the paraboloids and three Newton
-/// steps.
-const FLAT_ENOUGH: f64 = 0.08;
 
 /// Limit of the number of parts, for the sake of memory and of build time: 64 KiB hold no more.
 const MAX_PARTS: usize = 256;
@@ -21,15 +16,15 @@ const MAX_PARTS: usize = 256;
 /// Halvings after which a part that does not get flatter (a cusp, a collapsed edge) is left to subdivision.
 const MAX_DEPTH: usize = 12;
 
-/// The parts of one patch under a tree of boxes with four children each. Everything in unit space.
+/// The parts of one patch under a tree of boxes with eight children each. Everything in unit space.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PartTree {
     nodes: Vec<Node>,
     packets: Vec<Packet>,
 }
 
-/// Reference to a node or to a leaf of four parts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Reference to a node or to a leaf of up to eight parts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Link(u32);
 
 const PACKET_BIT: u32 = 1 << 31;
@@ -40,21 +35,13 @@ pub(super) enum Target<'a> {
     Packet(&'a Packet),
 }
 
-/// Four boxes and what is in them.
-#[derive(Clone, Debug)]
-pub(super) struct Node {
-    low: [f32x4; 3],
-    high: [f32x4; 3],
-    children: [Link; 4],
-}
-
 /// A part while the tree is built.
 struct Piece {
     net: ControlNet,
     domain: Domain,
     depth: usize,
-    /// See [`turns`].
-    turns: [f64; 2],
+    /// See [`bending`].
+    bending: [f64; 2],
     halves: Option<[usize; 2]>,
 }
 
@@ -71,7 +58,7 @@ impl PartTree {
 
     /// The top of the tree.
     pub(super) fn root(&self) -> Link {
-        if self.nodes.is_empty() { Link(PACKET_BIT) } else { Link(0) }
+        if self.nodes.is_empty() { Link(PACKET_BIT) } else { Link((self.nodes.len() - 1) as u32) }
     }
 
     /// Follows a link.
@@ -91,7 +78,7 @@ impl PartTree {
         while let Some(link) = open.pop() {
             let Target::Node(node) = self.follow(link) else { continue };
             for (slot, distance) in node.distances(point).into_iter().enumerate() {
-                match node.children[slot] {
+                match node.child(slot) {
                     Link(child) if child & PACKET_BIT != 0 => nearest = nearest.min(distance),
                     link if distance < nearest => open.push(link),
                     _ => {}
@@ -109,18 +96,15 @@ impl PartTree {
     /// Adds the tree below a piece.
     fn link(&mut self, pieces: &[Piece], root: usize) -> Link {
         let below = parts_below(pieces, root);
-        if below.len() <= 4 {
+        if below.len() <= LANES {
             self.packets.push(Packet::new(&below.iter().map(|&k| pieces[k].paraboloid()).collect::<Vec<_>>()));
             return Link(PACKET_BIT | (self.packets.len() - 1) as u32);
         }
-        let index = self.nodes.len();
-        let children = four_below(pieces, root);
-        self.nodes.push(Node::new(&children.iter().map(|&k| pieces[k].net.bounds()).collect::<Vec<_>>()));
-        for (place, &child) in children.iter().enumerate() {
-            let link = self.link(pieces, child);
-            self.nodes[index].children[place] = link;
-        }
-        Link(index as u32)
+        let children = children_of(pieces, root);
+        let boxes: Vec<_> = children.iter().map(|&k| pieces[k].net.bounds()).collect();
+        let links: Vec<_> = children.iter().map(|&k| self.link(pieces, k)).collect();
+        self.nodes.push(Node::new(&boxes, &links));
+        Link((self.nodes.len() - 1) as u32)
     }
 }
 
@@ -143,20 +127,20 @@ fn cut(net: &ControlNet) -> Vec<Piece> {
 
 impl Piece {
     fn new(net: ControlNet, domain: Domain, depth: usize) -> Self {
-        Self { net, domain, depth, turns: turns(&net), halves: None }
+        Self { net, domain, depth, bending: bending(&net), halves: None }
     }
 
     /// How much halving would help, as a sortable number; none for a part that may stay whole.
     fn need(&self) -> Option<u64> {
-        let turn = self.turns[0].max(self.turns[1]);
-        let open = turn > FLAT_ENOUGH && self.depth < MAX_DEPTH;
+        let bending = self.bending[0].max(self.bending[1]);
+        let open = bending > 1.0 && self.depth < MAX_DEPTH;
         // The bits of positive floating-point numbers sort as the numbers do.
-        open.then(|| (turn.min(1.0) * self.net.bounds().diagonal()).to_bits())
+        open.then(|| (bending.min(SHAPELESS) * self.net.bounds().diagonal()).to_bits())
     }
 
-    /// Two halves, along the axis along which the tangents turn more.
+    /// Two halves, along the axis along which it bends more.
     fn cut(&self) -> [Self; 2] {
-        let (nets, domains) = if self.turns[0] >= self.turns[1] {
+        let (nets, domains) = if self.bending[0] >= self.bending[1] {
             (self.net.split_u(), self.domain.halves_x())
         } else {
             (self.net.split_v(), self.domain.halves_y())
@@ -170,28 +154,6 @@ impl Piece {
     }
 }
 
-/// How much the partial derivatives change along u, and along v, relative to their length: about a third of the angle
-/// by which a tangent turns.
-fn turns(net: &ControlNet) -> [f64; 2] {
-    let p = &net.points;
-    let (mut du, mut dv, mut duu, mut duv, mut dvv) = (0f64, 0f64, 0f64, 0f64, 0f64);
-    for i in 0..3 {
-        for j in 0..4 {
-            du = du.max(p[i + 1][j].distance_squared(p[i][j]));
-            dv = dv.max(p[j][i + 1].distance_squared(p[j][i]));
-            if i < 2 {
-                duu = duu.max((p[i + 2][j] - 2.0 * p[i + 1][j] + p[i][j]).length_squared());
-                dvv = dvv.max((p[j][i + 2] - 2.0 * p[j][i + 1] + p[j][i]).length_squared());
-            }
-            if j < 3 {
-                duv = duv.max((p[i + 1][j + 1] - p[i + 1][j] - p[i][j + 1] + p[i][j]).length_squared());
-            }
-        }
-    }
-    let ratio = |change: f64, length: f64| if change > 0.0 { (change / length).sqrt() } else { 0.0 };
-    [ratio(duu, du).max(ratio(duv, dv)), ratio(dvv, dv).max(ratio(duv, du))]
-}
-
 /// The parts at or below a piece.
 fn parts_below(pieces: &[Piece], root: usize) -> Vec<usize> {
     match pieces[root].halves {
@@ -200,52 +162,14 @@ fn parts_below(pieces: &[Piece], root: usize) -> Vec<usize> {
     }
 }
 
-/// Up to four pieces that make up a piece: its halves, and their halves.
-fn four_below(pieces: &[Piece], root: usize) -> Vec<usize> {
-    let halves = |k: usize| pieces[k].halves.map_or(vec![k], Vec::from);
-    halves(root).into_iter().flat_map(halves).collect()
-}
-
-impl Node {
-    /// Boxes rounded outward to `f32`, and larger by what rounding may move a ray. Missing children get boxes at
-    /// infinity.
-    fn new(boxes: &[Aabb]) -> Self {
-        let corner =
-            |f: &dyn Fn(&Aabb) -> f32, empty: f32| f32x4::from(from_fn::<f32, 4, _>(|k| boxes.get(k).map_or(empty, f)));
-        Self {
-            low: [0, 1, 2].map(|axis| corner(&|b| round_down(b.min[axis] - ROUNDING), f32::INFINITY)),
-            high: [0, 1, 2].map(|axis| corner(&|b| round_up(b.max[axis] + ROUNDING), f32::INFINITY)),
-            children: [Link(0); 4],
-        }
+/// Up to eight pieces that make up a piece with more parts than a leaf holds: again and again the one with the most
+/// parts gives way to its halves, until none has more than a leaf holds.
+fn children_of(pieces: &[Piece], root: usize) -> Vec<usize> {
+    let mut children = vec![root];
+    while children.len() < LANES {
+        let parts = |k: usize| parts_below(pieces, children[k]).len();
+        let Some(largest) = (0..children.len()).max_by_key(|&k| parts(k)).filter(|&k| parts(k) > LANES) else { break };
+        children.splice(largest..=largest, pieces[children[largest]].halves.into_iter().flatten());
     }
-
-    /// Which boxes the ray meets (bit k for child k), and where it enters them.
-    #[inline(always)]
-    pub(super) fn test(&self, ray: &PacketRay) -> (u32, [f32; 4]) {
-        let mut near = ray.z_min;
-        let mut far = ray.z_max;
-        for axis in 0..3 {
-            let low = (self.low[axis] - ray.origin[axis]) * ray.inverse[axis];
-            let high = (self.high[axis] - ray.origin[axis]) * ray.inverse[axis];
-            near = near.fast_max(low.fast_min(high));
-            far = far.fast_min(low.fast_max(high));
-        }
-        (near.simd_le(far).to_bitmask(), near.to_array())
-    }
-
-    /// How far a point is from each box; infinite where there is none.
-    fn distances(&self, point: DVec3) -> [f64; 4] {
-        let outside = |axis: usize| {
-            let x = f32x4::splat(point[axis] as f32);
-            (self.low[axis] - x).max(x - self.high[axis]).max(f32x4::ZERO)
-        };
-        let [x, y, z] = [0, 1, 2].map(outside);
-        (x * x + y * y + z * z).sqrt().to_array().map(f64::from)
-    }
-
-    /// Child k.
-    #[inline(always)]
-    pub(super) fn child(&self, k: usize) -> Link {
-        self.children[k]
-    }
+    children
 }
