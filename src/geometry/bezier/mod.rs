@@ -14,6 +14,7 @@ mod patch;
 mod power;
 mod ray_net;
 mod row;
+mod row_net;
 mod search;
 mod surface;
 mod traverse;

@@ -10,7 +10,7 @@ use glam::DVec3;
 const SLACK: f64 = 1e-9;
 
 /// Steps, relative to the part, below which the next one is lost in rounding: the error is the square of the last step.
-const LAST_STEP: f64 = 1e-6;
+const LAST_STEP: f64 = 1e-5;
 
 /// Steps after which subdivision is the better way. From within a nearly flat part three suffice.
 const MAX_STEPS: usize = 8;
@@ -68,11 +68,25 @@ impl Domain {
         (limit(x, self.x, self.half_x), limit(y, self.y, self.half_y))
     }
 
+    /// Where the part, enlarged by a factor, begins and ends in u.
+    #[inline(always)]
+    pub(super) fn ends_u(&self, enlarged: f64) -> (f64, f64) {
+        (0.5 * (self.x - enlarged * self.half_x) + 0.5, 0.5 * (self.x + enlarged * self.half_x) + 0.5)
+    }
+
+    /// Where it begins and ends in v.
+    #[inline(always)]
+    pub(super) fn ends_v(&self, enlarged: f64) -> (f64, f64) {
+        (0.5 * (self.y - enlarged * self.half_y) + 0.5, 0.5 * (self.y + enlarged * self.half_y) + 0.5)
+    }
+
+    #[inline(always)]
     pub(super) fn halves_x(&self) -> [Self; 2] {
         let half_x = 0.5 * self.half_x;
         [Self { x: self.x - half_x, half_x, ..*self }, Self { x: self.x + half_x, half_x, ..*self }]
     }
 
+    #[inline(always)]
     pub(super) fn halves_y(&self) -> [Self; 2] {
         let half_y = 0.5 * self.half_y;
         [Self { y: self.y - half_y, half_y, ..*self }, Self { y: self.y + half_y, half_y, ..*self }]

@@ -1,8 +1,10 @@
 //! A small part of a patch as a paraboloid, with bounds of all that it leaves out.
 
-use super::ControlNet;
 use super::newton::Domain;
+use super::row::{Range, Row, Rows};
+use super::row_net::RowNet;
 use glam::DVec3;
+use multiversion::multiversion;
 use std::array::from_fn;
 
 /// A part is described over a square larger than itself by this factor: the bounds then hold around it as well, and a
@@ -38,23 +40,17 @@ pub(super) struct Paraboloid {
     pub(super) convex: f64,
 }
 
-type Bernstein = [[f64; 4]; 4];
-
 impl Paraboloid {
-    /// Describes the part over `domain`; `net` is the net over the domain enlarged by [`MARGIN`].
-    pub(super) fn new(net: &ControlNet, domain: Domain) -> Self {
-        let [[p00, .., p03], _, _, [p30, .., p33]] = net.points;
-        let center = rounded(0.25 * ((p00 + p33) + (p03 + p30)));
-        let Some(axes) = mean_gradients(net) else {
-            return Self::shapeless(net, domain, center);
-        };
-        let axes = axes.map(rounded);
-        Self { axes, ..Self::shapeless(net, domain, center) }.fitted(net)
+    /// Describes the part over `domain` with this net.
+    pub(super) fn new(part: &RowNet, domain: Domain) -> Self {
+        describe(part, domain)
     }
 
     /// A part about which nothing is known but its size.
-    fn shapeless(net: &ControlNet, domain: Domain, center: DVec3) -> Self {
-        let radius = net.points.iter().flatten().map(|p| p.distance(center)).fold(0.0, f64::max);
+    #[inline(always)]
+    fn shapeless(net: &RowNet, domain: Domain, center: DVec3) -> Self {
+        let bounds = net.bounds();
+        let radius = (center - bounds.min).max(bounds.max - center).length();
         Self {
             domain,
             center,
@@ -69,17 +65,17 @@ impl Paraboloid {
     }
 
     /// Fits the paraboloid, and bounds what it leaves out by the control points of the differences.
-    fn fitted(mut self, net: &ControlNet) -> Self {
+    #[inline(always)]
+    fn fitted(mut self, net: &RowNet) -> Self {
         let radius = self.extent[0];
-        let [alpha, beta, gamma] = self.axes.map(|axis| net.points.map(|row| row.map(|p| axis.dot(p - self.center))));
-        let parameter = |i: usize| 2.0 / 3.0 * i as f64 - 1.0;
-        let drift_a = largest(&from_fn(|i| from_fn(|j| alpha[i][j] - parameter(i))));
-        let drift_b = largest(&from_fn(|i| from_fn(|j| beta[i][j] - parameter(j))));
+        let RowNet { x: alpha, y: beta, z: gamma } = net.in_coordinates(self.axes, self.center);
+        let drift_a = drift(&alpha);
+        let drift_b = drift(&beta.transposed());
         let drift = drift_a.max(drift_b);
         // The square of half size `1 - drift` in (alpha, beta) is covered by the map from (s, t), and holds all points
         // with |s|, |t| below `1 - 2 drift`, with the chords between them.
         self.convex = 1.0 - 2.0 * drift - 1e-5;
-        self.extent = [drift_a + 1.0 / MARGIN, drift_b + 1.0 / MARGIN, largest(&gamma)];
+        self.extent = [drift_a + 1.0 / MARGIN, drift_b + 1.0 / MARGIN, gamma.range().greatest()];
         let shear = shear(&alpha, &beta);
         if shear < 0.9 && self.convex > 1.0 / MARGIN {
             self.bound_curved(&alpha, &beta, &gamma, shear, radius);
@@ -93,9 +89,10 @@ impl Paraboloid {
     /// Takes the part for a plane. Two points of the surface are then compared along the straight line between their
     /// parameters: if (alpha, beta) differ by D, then (s, t) differ by D up to `shear / (1 - shear)` times the larger
     /// component of D.
-    fn bound_flat(&mut self, gamma: &Bernstein, shear: f64) {
-        let (low, high) = range(gamma);
-        let [by_s, by_t] = largest_derivatives(gamma, 1.5);
+    #[inline(always)]
+    fn bound_flat(&mut self, gamma: &Rows, shear: f64) {
+        let Range { low, high } = gamma.range();
+        let [by_s, by_t] = [gamma, &gamma.transposed()].map(|rows| 1.5 * Range::of(&rows.steps()).greatest());
         let mixed = shear / (1.0 - shear) * (by_s + by_t);
         self.offset = f64::from((0.5 * (low + high)) as f32);
         self.error = (high - self.offset).max(self.offset - low) + ROUNDING;
@@ -104,17 +101,19 @@ impl Paraboloid {
     }
 
     /// Takes the part for a paraboloid.
-    fn bound_curved(&mut self, alpha: &Bernstein, beta: &Bernstein, gamma: &Bernstein, shear: f64, radius: f64) {
+    #[inline(always)]
+    fn bound_curved(&mut self, alpha: &Rows, beta: &Rows, gamma: &Rows, shear: f64, radius: f64) {
         self.hessian = mean_hessian(gamma);
         let [h_aa, h_ab, h_bb] = self.hessian;
-        let half_gradient_a = from_fn(|i| from_fn(|j| 0.5 * h_aa * alpha[i][j] + h_ab * beta[i][j]));
-        let half_gradient_b = beta.map(|row| row.map(|b| 0.5 * h_bb * b));
-        let one = [[1.0; 4]; 4];
-        let residual =
-            sum_of_products([(gamma, &one, 1.0), (alpha, &half_gradient_a, -1.0), (beta, &half_gradient_b, -1.0)]);
-        let (low, high) = range(&residual);
+        let (mut half_gradient_a, mut half_gradient_b) = (Rows::ZERO, Rows::ZERO);
+        for i in 0..4 {
+            half_gradient_a.0[i] = alpha.0[i] * (-0.5 * h_aa) + beta.0[i] * -h_ab;
+            half_gradient_b.0[i] = beta.0[i] * (-0.5 * h_bb);
+        }
+        let one = Rows([Row::splat(1.0); 4]);
+        let residual = sum_of_products([(gamma, &one), (alpha, &half_gradient_a), (beta, &half_gradient_b)]);
+        let (Range { low, high }, [by_s, by_t]) = bounds_of(&residual);
         self.offset = f64::from((0.5 * (low + high)) as f32);
-        let [by_s, by_t] = largest_derivatives(&residual, 3.0);
         // From derivatives by (s, t) to those by (alpha, beta): the inverse of a Jacobian that differs from 1 by `shear`.
         let mixed = shear / (1.0 - shear) * by_s.max(by_t);
         // Coordinates of points on rays that meet the part stay below the lengths of the axes times its radius; what
@@ -127,11 +126,23 @@ impl Paraboloid {
     }
 }
 
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn describe(part: &RowNet, domain: Domain) -> Paraboloid {
+    let ends = (0.5 - 0.5 * MARGIN, 0.5 + 0.5 * MARGIN);
+    let net = part.restricted(ends, ends);
+    let center = rounded(net.middle());
+    let shapeless = Paraboloid::shapeless(&net, domain, center);
+    match mean_gradients(&net) {
+        Some(axes) => Paraboloid { axes: axes.map(rounded), ..shapeless }.fitted(&net),
+        None => shapeless,
+    }
+}
+
 /// The gradients of coordinates (alpha, beta, gamma) in which a part is on average `(s, t, 0)`, with s and t its parameters
 /// from -1 to 1; that of gamma has unit length. None where the mean partial derivatives span no plane.
-pub(super) fn mean_gradients(net: &ControlNet) -> Option<[DVec3; 3]> {
-    let [[p00, .., p03], _, _, [p30, .., p33]] = net.points;
-    let (a, b) = (0.25 * ((p33 - p00) + (p30 - p03)), 0.25 * ((p33 - p00) - (p30 - p03)));
+#[inline(always)]
+pub(super) fn mean_gradients(net: &RowNet) -> Option<[DVec3; 3]> {
+    let [a, b] = net.mean_derivatives();
     let normal = a.cross(b);
     if normal.length() <= 1e-6 * a.length() * b.length() || normal.length() < 1e-12 {
         return None;
@@ -146,69 +157,85 @@ fn rounded(p: DVec3) -> DVec3 {
     p.as_vec3().as_dvec3()
 }
 
-fn largest(values: &Bernstein) -> f64 {
-    values.iter().flatten().fold(0.0, |largest, x| x.abs().max(largest))
+/// How far a coordinate is from the parameter along u, from -1 to 1: it has evenly spaced control points.
+#[inline(always)]
+fn drift(coordinate: &Rows) -> f64 {
+    let [a, b, c, d] = coordinate.0;
+    let third = Row::splat(1.0 / 3.0);
+    let one = Row::splat(1.0);
+    Range::of(&[a + one, b + third, c - third, d - one]).greatest()
 }
 
 /// The means of the second derivatives by ss, st and tt, as `f32` numbers. Parameters from -1 to 1 make a derivative of
 /// a cubic 3/2 of a difference of control points.
-fn mean_hessian(values: &Bernstein) -> [f64; 3] {
-    let bend = |[a, b, c, d]: [f64; 4]| 1.5 / 8.0 * ((c - 2.0 * b + a) + (d - 2.0 * c + b));
-    let ss: f64 = (0..4).map(|j| bend(from_fn(|i| values[i][j]))).sum();
-    let tt: f64 = (0..4).map(|i| bend(values[i])).sum();
+#[inline(always)]
+fn mean_hessian(values: &Rows) -> [f64; 3] {
+    let mean = |[a, b]: [Row; 2]| 1.5 / 8.0 * (a + b).0.iter().sum::<f64>();
     // The sum of all nine mixed differences.
-    let st = 2.25 / 9.0 * (values[3][3] - values[3][0] - values[0][3] + values[0][0]);
-    [ss, st, tt].map(|h| f64::from(h as f32))
+    let [Row([a, .., b]), _, _, Row([c, .., d])] = values.0;
+    [mean(values.bends()), 2.25 / 9.0 * (d - c - b + a), mean(values.transposed().bends())].map(|h| f64::from(h as f32))
 }
 
 /// Bound of the norm of `J - 1` and of its transpose, with J the Jacobian of (alpha, beta) by (s, t).
-fn shear(alpha: &Bernstein, beta: &Bernstein) -> f64 {
-    let mut bounds = [[0f64; 2]; 2];
-    for i in 0..3 {
-        for j in 0..4 {
-            for (row, values) in [alpha, beta].into_iter().enumerate() {
-                let by_s = 1.5 * (values[i + 1][j] - values[i][j]) - f64::from(row == 0);
-                let by_t = 1.5 * (values[j][i + 1] - values[j][i]) - f64::from(row == 1);
-                bounds[row] = [bounds[row][0].max(by_s.abs()), bounds[row][1].max(by_t.abs())];
-            }
-        }
-    }
-    let [[ss, st], [ts, tt]] = bounds;
+#[inline(always)]
+fn shear(alpha: &Rows, beta: &Rows) -> f64 {
+    let derivative = |rows: &Rows| Range::of(&rows.steps()).scaled(1.5);
+    let (ss, st) = (derivative(alpha).less(1.0).greatest(), derivative(&alpha.transposed()).greatest());
+    let (ts, tt) = (derivative(beta).greatest(), derivative(&beta.transposed()).less(1.0).greatest());
     (ss + st).max(ts + tt).max(ss + ts).max(st + tt) + ROUNDING
 }
 
-/// The sum of products `factor * a * b` of bicubic polynomials, as a polynomial of degree 6 by its control points.
+/// A polynomial of degree 6 in each parameter by its control points, `[i][j]`, with column 6 once more as column 7.
+type Sextic = [[Row; 2]; 7];
+
+/// The sum of products of bicubic polynomials.
 ///
 /// With each control point times its binomial coefficients, polynomials in Bernstein form multiply like those in power
 /// form.
-fn sum_of_products(terms: [(&Bernstein, &Bernstein, f64); 3]) -> [[f64; 7]; 7] {
+#[inline(always)]
+fn sum_of_products(terms: [(&Rows, &Rows); 3]) -> Sextic {
     const CUBIC: [f64; 4] = [1.0, 3.0, 3.0, 1.0];
-    const SEXTIC: [f64; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
-    let scaled = |values: &Bernstein| -> Bernstein { from_fn(|i| from_fn(|j| CUBIC[i] * CUBIC[j] * values[i][j])) };
-    let mut sum = [[0f64; 7]; 7];
-    for (a, b, factor) in terms {
-        let (a, b) = (scaled(a), scaled(b));
-        for i in 0..16 {
-            let weight = factor * a[i / 4][i % 4];
-            for (row, values) in sum[i / 4..].iter_mut().zip(&b) {
-                for (entry, value) in row[i % 4..].iter_mut().zip(values) {
-                    *entry += weight * value;
+    const SEXTIC: [f64; 7] = [1.0, 1.0 / 6.0, 1.0 / 15.0, 1.0 / 20.0, 1.0 / 15.0, 1.0 / 6.0, 1.0];
+    // By row of the product and by column of the first factor: with rows apart that go to different columns of the
+    // product, no sum waits for another.
+    let mut sums = [[Row::ZERO; 4]; 7];
+    for (a, b) in terms {
+        let scaled: [Row; 4] = from_fn(|k| b.0[k] * (Row(CUBIC) * CUBIC[k]));
+        for i in 0..4 {
+            for j in 0..4 {
+                let weight = CUBIC[i] * CUBIC[j] * a.0[i].0[j];
+                for k in 0..4 {
+                    sums[i + k][j] = sums[i + k][j] + scaled[k] * weight;
                 }
             }
         }
     }
-    from_fn(|i| from_fn(|j| sum[i][j] / (SEXTIC[i] * SEXTIC[j])))
+    let mut product = [[Row::ZERO; 2]; 7];
+    for (i, [Row(a), Row(b), Row(c), Row(d)]) in sums.iter().enumerate() {
+        let last = d[3];
+        let low = Row([a[0], a[1] + b[0], (a[2] + b[1]) + c[0], (a[3] + b[2]) + (c[1] + d[0])]);
+        let high = Row([(b[3] + c[2]) + d[1], c[3] + d[2], last, last]);
+        let [s0, s1, s2, s3, s4, s5, s6] = SEXTIC;
+        product[i] = [low * (Row([s0, s1, s2, s3]) * SEXTIC[i]), high * (Row([s4, s5, s6, s6]) * SEXTIC[i])];
+    }
+    product
 }
 
-/// Bounds of the absolute derivatives by s and by t of a polynomial of degree `N - 1` in each: they have the differences
-/// of control points times half the degree, `half_degree`, for control points.
-fn largest_derivatives<const N: usize>(values: &[[f64; N]; N], half_degree: f64) -> [f64; 2] {
-    let largest = |steps: &dyn Fn(usize, usize) -> f64| {
-        (0..N * (N - 1)).map(|k| half_degree * steps(k / N, k % N).abs()).fold(0.0, f64::max)
-    };
-    [largest(&|i, j| values[i + 1][j] - values[i][j]), largest(&|j, i| values[i][j + 1] - values[i][j])]
-}
-
-fn range<const N: usize>(values: &[[f64; N]; N]) -> (f64, f64) {
-    values.iter().flatten().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (x.min(low), x.max(high)))
+/// The least and the greatest value of a polynomial on the square, and the greatest absolute derivatives by s and by t,
+/// or more: these are bounds from the control points.
+#[inline(always)]
+fn bounds_of(values: &Sextic) -> (Range, [f64; 2]) {
+    let mut all = [Row::ZERO; 14];
+    let mut steps_s = [Row::ZERO; 12];
+    let mut steps_t = [Row::ZERO; 14];
+    for (i, [low, high]) in values.iter().enumerate() {
+        let (Row([_, b, c, d]), Row([e, f, g, h])) = (*low, *high);
+        [all[2 * i], all[2 * i + 1]] = [*low, *high];
+        [steps_t[2 * i], steps_t[2 * i + 1]] = [Row([b, c, d, e]) - *low, Row([f, g, h, h]) - *high];
+        if i > 0 {
+            [steps_s[2 * i - 2], steps_s[2 * i - 1]] = [*low - values[i - 1][0], *high - values[i - 1][1]];
+        }
+    }
+    // Half the degree times the differences.
+    (Range::of(&all), [3.0 * Range::of(&steps_s).greatest(), 3.0 * Range::of(&steps_t).greatest()])
 }

@@ -1,6 +1,7 @@
 use super::ControlNet;
 use super::normal::unit_normal;
 use super::power::PowerForm;
+use super::row_net::RowNet;
 use super::traverse::{Hit, has_hit, nearest_hit};
 use super::tree::PartTree;
 use super::unit::UnitMap;
@@ -12,13 +13,14 @@ use glam::DVec3;
 pub struct Patch {
     net: ControlNet,
     unit_map: UnitMap,
+    unit_net: ControlNet,
     prepared: Prepared,
 }
 
 /// What rays in unit space need.
 #[derive(Clone, Debug)]
 pub(super) struct Prepared {
-    pub(super) net: ControlNet,
+    pub(super) net: RowNet,
     pub(super) power: PowerForm,
     pub(super) tree: PartTree,
 }
@@ -40,8 +42,9 @@ impl Patch {
         let bounds = net.bounds();
         let unit_map = UnitMap::new(bounds.center(), bounds.diagonal());
         let unit_net = net.map(|p| unit_map.point(p));
-        let prepared = Prepared { net: unit_net, power: PowerForm::new(&unit_net), tree: PartTree::new(&unit_net) };
-        Self { net, unit_map, prepared }
+        let rows = RowNet::new(&unit_net);
+        let prepared = Prepared { net: rows, power: PowerForm::new(&unit_net), tree: PartTree::new(&rows) };
+        Self { net, unit_map, unit_net, prepared }
     }
 
     /// The control points.
@@ -83,7 +86,7 @@ impl Patch {
 
     /// The unit geometric normal `dS/du x dS/dv`; its limit on collapsed edges, equal rows and cusps. Never NaN.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
-        unit_normal(&self.prepared.net, u, v)
+        unit_normal(&self.unit_net, u, v)
     }
 
     /// Memory of the patch with everything it owns.

@@ -1,20 +1,15 @@
 //! A control net seen along a ray: the intersection becomes a pair of equations `x(u, v) = y(u, v) = 0`.
 
-use super::ControlNet;
 use super::newton::Domain;
-use super::row::{Row, Rows, transpose};
+use super::row::{Range, Row, Rows};
+use super::row_net::RowNet;
 use super::unit::UnitRay;
 use crate::math::Frame;
-use glam::DVec2;
+use glam::DVec3;
 
-/// The control points of a part of a patch along and across a ray, `rows[i][j]` with i along u: z along its direction,
-/// x = y = 0 on the ray.
+/// The control points of a part of a patch along and across a ray: z along its direction, x = y = 0 on the ray.
 #[derive(Clone, Copy)]
-pub(super) struct RayNet {
-    x: Rows,
-    y: Rows,
-    z: Rows,
-}
+pub(super) struct RayNet(RowNet);
 
 /// What the affine part of a [`RayNet`] tells.
 pub(super) struct Affine {
@@ -29,108 +24,88 @@ pub(super) struct Affine {
 impl RayNet {
     /// The net of a patch, given in unit space, along a ray.
     #[inline(always)]
-    pub(super) fn new(net: &ControlNet, ray: &UnitRay) -> Self {
+    pub(super) fn new(net: &RowNet, ray: &UnitRay) -> Self {
         let frame = Frame::from_normal(ray.direction);
-        let mut rows = Self { x: [Row::ZERO; 4], y: [Row::ZERO; 4], z: [Row::ZERO; 4] };
-        for i in 0..4 {
-            for j in 0..4 {
-                let p = net.points[i][j] - ray.origin;
-                rows.x[i].0[j] = p.dot(frame.tangent);
-                rows.y[i].0[j] = p.dot(frame.bitangent);
-                rows.z[i].0[j] = p.dot(frame.normal);
-            }
-        }
-        rows
+        Self(net.in_coordinates([frame.tangent, frame.bitangent, frame.normal], ray.origin))
     }
 
     /// The net of a part.
     #[inline(always)]
     pub(super) fn restricted(&self, part: &Domain) -> Self {
-        let ends = |middle: f64, half: f64| [0.5 * (middle - half) + 0.5, 0.5 * (middle + half) + 0.5];
-        let ([u0, u1], [v0, v1]) = (ends(part.x, part.half_x), ends(part.y, part.half_y));
-        let part = |rows: &Rows| transpose(&restrict(&transpose(&restrict(rows, u0, u1)), v0, v1));
-        Self { x: part(&self.x), y: part(&self.y), z: part(&self.z) }
+        Self(self.0.restricted(part.ends_u(1.0), part.ends_v(1.0)))
     }
 
     /// Whether all control points lie on one side of the ray by more than `slack`, or before or behind the given range.
     #[inline(always)]
     pub(super) fn misses(&self, z_min: f64, z_max: f64, slack: f64) -> bool {
-        let [x, y, z] = self.ranges();
-        excludes_zero(x, slack) || excludes_zero(y, slack) || z.1 < z_min - slack || z.0 > z_max + slack
+        let z = self.0.z.range();
+        self.0.x.range().excludes_zero(slack)
+            || self.0.y.range().excludes_zero(slack)
+            || z.low > z_max + slack
+            || z.high < z_min - slack
     }
 
-    /// The smallest and the largest coordinate on each axis.
+    /// Whether all control points are within this distance of each other, along each axis.
     #[inline(always)]
-    pub(super) fn ranges(&self) -> [(f64, f64); 3] {
-        [range(&self.x), range(&self.y), range(&self.z)]
+    pub(super) fn is_within(&self, size: f64) -> bool {
+        self.0.bounds().size().max_element() <= size
     }
 
     /// The mean of the corners along the ray.
     #[inline(always)]
     pub(super) fn middle_z(&self) -> f64 {
-        middle(&self.z)
+        self.0.z.middle()
     }
 
     /// The halves `u <= 1/2` and `u >= 1/2`.
     #[inline(always)]
     pub(super) fn split_u(&self) -> [Self; 2] {
-        let ([x0, x1], [y0, y1], [z0, z1]) = (halves(&self.x), halves(&self.y), halves(&self.z));
-        [Self { x: x0, y: y0, z: z0 }, Self { x: x1, y: y1, z: z1 }]
+        let [a, b] = self.0.split_u();
+        [Self(a), Self(b)]
     }
 
     /// The halves `v <= 1/2` and `v >= 1/2`.
     #[inline(always)]
     pub(super) fn split_v(&self) -> [Self; 2] {
-        let [a, b] = self.transposed().split_u();
-        [a.transposed(), b.transposed()]
-    }
-
-    /// The same surface with the roles of u and v exchanged.
-    #[inline(always)]
-    fn transposed(&self) -> Self {
-        Self { x: transpose(&self.x), y: transpose(&self.y), z: transpose(&self.z) }
+        let [a, b] = self.0.split_v();
+        [Self(a), Self(b)]
     }
 
     /// The part turned about the ray until x runs along the longer of its mean partial derivatives: a long and narrow
     /// part becomes thin in y.
     #[inline(always)]
     pub(super) fn turned(&self) -> Self {
-        let [along_u, along_v] = self.mean_derivatives();
+        let [along_u, along_v] = self.0.mean_derivatives().map(DVec3::truncate);
         let along = if along_u.length_squared() > along_v.length_squared() { along_u } else { along_v };
         let Some(e) = along.try_normalize() else {
             return *self;
         };
-        Self { x: combine(e.x, &self.x, e.y, &self.y), y: combine(-e.y, &self.x, e.x, &self.y), z: self.z }
-    }
-
-    /// The means of the partial derivatives of (x, y), with parameters from -1 to 1.
-    #[inline(always)]
-    fn mean_derivatives(&self) -> [DVec2; 2] {
-        let corner = |i: usize, j: usize| DVec2::new(self.x[i].0[j], self.y[i].0[j]);
-        let diagonals = (corner(3, 3) - corner(0, 0), corner(3, 0) - corner(0, 3));
-        [0.25 * (diagonals.0 + diagonals.1), 0.25 * (diagonals.0 - diagonals.1)]
+        let RowNet { x, y, z } = &self.0;
+        Self(RowNet { x: combine(e.x, x, e.y, y), y: combine(-e.y, x, e.x, y), z: *z })
     }
 
     /// What the control points tell in coordinates in which the part is affine on average, with the inverse of the mean
     /// Jacobian for A. None where it has no inverse.
     #[inline(always)]
     pub(super) fn affine(&self) -> Option<Affine> {
-        let [du, dv] = self.mean_derivatives();
+        let [du, dv] = self.0.mean_derivatives();
+        let (du, dv) = (du.truncate(), dv.truncate());
         let determinant = du.perp_dot(dv);
         if determinant.abs() <= 1e-12 * du.length() * dv.length() {
             return None;
         }
         let (du, dv) = (du / determinant, dv / determinant);
-        let x = combine(dv.y, &self.x, -dv.x, &self.y);
-        let y = combine(-du.y, &self.x, du.x, &self.y);
-        let (xt, yt) = (transpose(&x), transpose(&y));
+        let x = combine(dv.y, &self.0.x, -dv.x, &self.0.y);
+        let y = combine(-du.y, &self.0.x, du.x, &self.0.y);
         // 1.5 times the step between control points: three steps for parameters from -1 to 1.
-        let norm_x = largest(&steps(&x), 1.5, 1.0) + largest(&steps(&xt), 1.5, 0.0);
-        let norm_y = largest(&steps(&y), 1.5, 0.0) + largest(&steps(&yt), 1.5, 1.0);
+        let derivative = |rows: &Rows| Range::of(&rows.steps()).scaled(1.5);
+        let (xt, yt) = (x.transposed(), y.transposed());
+        let norm_x = derivative(&x).less(1.0).greatest() + derivative(&xt).greatest();
+        let norm_y = derivative(&y).greatest() + derivative(&yt).less(1.0).greatest();
         Some(Affine {
-            is_missed: excludes_zero(range(&x), 1e-9) || excludes_zero(range(&y), 1e-9),
+            is_missed: x.range().excludes_zero(1e-9) || y.range().excludes_zero(1e-9),
             nonlinearity: norm_x.max(norm_y),
-            start: [-middle(&x), -middle(&y)],
+            start: [-x.middle(), -y.middle()],
         })
     }
 
@@ -138,83 +113,29 @@ impl RayNet {
     /// bends, the longer one.
     #[inline(always)]
     pub(super) fn splits_across_u(&self) -> bool {
-        let (mut long, mut bend, mut twist) = ([0f64; 2], [0f64; 2], 0f64);
-        for rows in [&self.x, &self.y] {
-            for (axis, rows) in [*rows, transpose(rows)].iter().enumerate() {
-                let [a, b, c] = steps(rows);
-                long[axis] = long[axis].max(largest(&[a, b, c], 1.0, 0.0));
-                bend[axis] = bend[axis].max(largest(&[b - a, c - b], 1.0, 0.0));
-                if axis == 0 {
-                    // Across the other axis: a step from each entry to the next.
-                    let next = |Row([_, b, c, d]): Row| Row([b, c, d, d]);
-                    twist = twist.max(largest(&[next(a) - a, next(b) - b, next(c) - c], 1.0, 0.0));
-                }
-            }
-        }
+        let RowNet { x, y, z } = &self.0;
+        let (xt, yt, zt) = (x.transposed(), y.transposed(), z.transposed());
+        let long = [greatest(&x.steps(), &y.steps()), greatest(&xt.steps(), &yt.steps())];
+        let mut bend = [greatest(&x.bends(), &y.bends()), greatest(&xt.bends(), &yt.bends())];
         // A twist hurts where it turns the shorter derivative: splitting across the other axis tames it.
         let tamed_by = usize::from(long[0] < long[1]);
-        bend[tamed_by] = bend[tamed_by].max(twist);
+        bend[tamed_by] = bend[tamed_by].max(greatest(&x.twists(), &y.twists()));
         if bend[0].max(bend[1]) > 1e-3 * long[0].max(long[1]) {
             return bend[0] >= bend[1];
         }
-        let [deep_u, deep_v] = [self.z, transpose(&self.z)].map(|z| largest(&steps(&z), 1.0, 0.0));
-        deep_u.max(long[0]) >= deep_v.max(long[1])
+        let deep = |z: &Rows| Range::of(&z.steps()).greatest();
+        deep(z).max(long[0]) >= deep(&zt).max(long[1])
     }
 }
 
+/// The greatest absolute value in both.
 #[inline(always)]
-fn excludes_zero((low, high): (f64, f64), slack: f64) -> bool {
-    low > slack || high < -slack
+fn greatest<const N: usize>(x: &[Row; N], y: &[Row; N]) -> f64 {
+    Range::of(x).greatest().max(Range::of(y).greatest())
 }
 
-/// The mean of the four corners.
+/// `a x + b y`, for each number.
 #[inline(always)]
-fn middle(rows: &Rows) -> f64 {
-    0.25 * ((rows[0].0[0] + rows[3].0[3]) + (rows[0].0[3] + rows[3].0[0]))
-}
-
-/// `a x + b y`, for each entry.
-#[inline(always)]
-fn combine(a: f64, x: &Rows, b: f64, y: &Rows) -> Rows {
-    let row = |k: usize| x[k] * a + y[k] * b;
-    [row(0), row(1), row(2), row(3)]
-}
-
-/// The differences of neighbouring rows.
-#[inline(always)]
-fn steps(rows: &Rows) -> [Row; 3] {
-    [rows[1] - rows[0], rows[2] - rows[1], rows[3] - rows[2]]
-}
-
-/// The largest absolute value of `scale * entry - offset`.
-#[inline(always)]
-fn largest<const N: usize>(rows: &[Row; N], scale: f64, offset: f64) -> f64 {
-    rows.iter().fold(Row::ZERO, |largest, row| (*row * scale - Row::splat(offset)).abs().max(largest)).greatest()
-}
-
-/// The smallest and the largest entry.
-#[inline(always)]
-fn range([a, b, c, d]: &Rows) -> (f64, f64) {
-    (a.min(*b).min(c.min(*d)).least(), a.max(*b).max(c.max(*d)).greatest())
-}
-
-/// De Casteljau's scheme at 1/2 along the first index.
-#[inline(always)]
-fn halves(rows: &Rows) -> [Rows; 2] {
-    let middle = |a: Row, b: Row| (a + b) * 0.5;
-    let (a, b, c) = (middle(rows[0], rows[1]), middle(rows[1], rows[2]), middle(rows[2], rows[3]));
-    let (d, e) = (middle(a, b), middle(b, c));
-    let m = middle(d, e);
-    [[rows[0], a, d, m], [m, e, c, rows[3]]]
-}
-
-/// The part from `low` to `high` along the first index: each control point of the part is the blossom of the curve at
-/// three values, each of them `low` or `high`.
-#[inline(always)]
-fn restrict(rows: &Rows, low: f64, high: f64) -> Rows {
-    let mix = |a: Row, b: Row, t: f64| a * (1.0 - t) + b * t;
-    let steps = |t: f64| [mix(rows[0], rows[1], t), mix(rows[1], rows[2], t), mix(rows[2], rows[3], t)];
-    let ([a, b, c], [d, e, f]) = (steps(low), steps(high));
-    let (ab, bc, de, ef) = (mix(a, b, low), mix(b, c, low), mix(d, e, high), mix(e, f, high));
-    [mix(ab, bc, low), mix(ab, bc, high), mix(de, ef, low), mix(de, ef, high)]
+fn combine(a: f64, Rows(x): &Rows, b: f64, Rows(y): &Rows) -> Rows {
+    Rows([x[0] * a + y[0] * b, x[1] * a + y[1] * b, x[2] * a + y[2] * b, x[3] * a + y[3] * b])
 }

@@ -75,12 +75,11 @@ fn search(l: impl Lanes, walk: &mut Walk, part: &Domain) {
 /// Leaves the halves of a piece for later, the nearer one on top; takes a piece that has become a point for a hit.
 #[inline(always)]
 fn split(walk: &mut Walk, net: &RayNet, domain: &Domain, depth: usize, open: &mut ArrayVec<Piece, MAX_OPEN>) {
-    let [x, y, z] = net.ranges();
     if net.misses(walk.ray.z_min, walk.ray.z_max, ROUNDING) {
         return;
     }
-    if (x.1 - x.0).max(y.1 - y.0).max(z.1 - z.0) <= TOUCHING {
-        return walk.accept(Root { x: domain.x, y: domain.y, z: 0.5 * (z.0 + z.1) });
+    if net.is_within(TOUCHING) {
+        return walk.accept(Root { x: domain.x, y: domain.y, z: net.middle_z() });
     }
     let (nets, domains) =
         if net.splits_across_u() { (net.split_u(), domain.halves_x()) } else { (net.split_v(), domain.halves_y()) };

@@ -1,12 +1,13 @@
 //! A patch cut into nearly flat parts, and the tree of boxes over them.
 
-use super::ControlNet;
 use super::bending::{SHAPELESS, bending};
 use super::newton::Domain;
 use super::node::Node;
 use super::packet::Packet;
-use super::paraboloid::{MARGIN, Paraboloid};
+use super::paraboloid::Paraboloid;
+use super::row_net::RowNet;
 use crate::math::lanes::LANES;
+use arrayvec::ArrayVec;
 use glam::DVec3;
 use std::collections::BinaryHeap;
 
@@ -37,17 +38,19 @@ pub(super) enum Target<'a> {
 
 /// A part while the tree is built.
 struct Piece {
-    net: ControlNet,
+    net: RowNet,
     domain: Domain,
     depth: usize,
     /// See [`bending`].
     bending: [f64; 2],
     halves: Option<[usize; 2]>,
+    /// Of how many parts it is made.
+    parts: usize,
 }
 
 impl PartTree {
     /// Cuts a patch, given in unit space.
-    pub(super) fn new(net: &ControlNet) -> Self {
+    pub(super) fn new(net: &RowNet) -> Self {
         let pieces = cut(net);
         let mut tree = Self::default();
         tree.link(&pieces, 0);
@@ -95,22 +98,24 @@ impl PartTree {
 
     /// Adds the tree below a piece.
     fn link(&mut self, pieces: &[Piece], root: usize) -> Link {
-        let below = parts_below(pieces, root);
-        if below.len() <= LANES {
-            self.packets.push(Packet::new(&below.iter().map(|&k| pieces[k].paraboloid()).collect::<Vec<_>>()));
+        if pieces[root].parts <= LANES {
+            let mut parts = ArrayVec::new();
+            collect_parts(pieces, root, &mut parts);
+            self.packets.push(Packet::new(&parts));
             return Link(PACKET_BIT | (self.packets.len() - 1) as u32);
         }
         let children = children_of(pieces, root);
-        let boxes: Vec<_> = children.iter().map(|&k| pieces[k].net.bounds()).collect();
-        let links: Vec<_> = children.iter().map(|&k| self.link(pieces, k)).collect();
+        let boxes: ArrayVec<_, LANES> = children.iter().map(|&k| pieces[k].net.bounds()).collect();
+        let links: ArrayVec<_, LANES> = children.iter().map(|&k| self.link(pieces, k)).collect();
         self.nodes.push(Node::new(&boxes, &links));
         Link((self.nodes.len() - 1) as u32)
     }
 }
 
 /// Halves the part that needs it most, again and again. The first piece is the patch.
-fn cut(net: &ControlNet) -> Vec<Piece> {
-    let mut pieces = vec![Piece::new(*net, Domain::WHOLE, 0)];
+fn cut(net: &RowNet) -> Vec<Piece> {
+    let mut pieces = Vec::with_capacity(2 * MAX_PARTS);
+    pieces.push(Piece::new(*net, Domain::WHOLE, 0));
     let mut open = BinaryHeap::from_iter(pieces[0].need().map(|need| (need, 0)));
     for _ in 1..MAX_PARTS {
         let Some((_, k)) = open.pop() else {
@@ -122,12 +127,18 @@ fn cut(net: &ControlNet) -> Vec<Piece> {
             pieces.push(half);
         }
     }
+    // Halves come after what they are halves of.
+    for k in (0..pieces.len()).rev() {
+        if let Some(halves) = pieces[k].halves {
+            pieces[k].parts = halves.into_iter().map(|half| pieces[half].parts).sum();
+        }
+    }
     pieces
 }
 
 impl Piece {
-    fn new(net: ControlNet, domain: Domain, depth: usize) -> Self {
-        Self { net, domain, depth, bending: bending(&net), halves: None }
+    fn new(net: RowNet, domain: Domain, depth: usize) -> Self {
+        Self { net, domain, depth, bending: bending(&net), halves: None, parts: 1 }
     }
 
     /// How much halving would help, as a sortable number; none for a part that may stay whole.
@@ -147,29 +158,25 @@ impl Piece {
         };
         [0, 1].map(|k| Self::new(nets[k], domains[k], self.depth + 1))
     }
-
-    fn paraboloid(&self) -> Paraboloid {
-        let ends = (0.5 - 0.5 * MARGIN, 0.5 + 0.5 * MARGIN);
-        Paraboloid::new(&self.net.restricted(ends, ends), self.domain)
-    }
 }
 
-/// The parts at or below a piece.
-fn parts_below(pieces: &[Piece], root: usize) -> Vec<usize> {
+/// Adds the paraboloids of the parts at or below a piece.
+fn collect_parts(pieces: &[Piece], root: usize, parts: &mut ArrayVec<Paraboloid, LANES>) {
     match pieces[root].halves {
-        Some(halves) => halves.into_iter().flat_map(|k| parts_below(pieces, k)).collect(),
-        None => vec![root],
+        Some(halves) => halves.into_iter().for_each(|half| collect_parts(pieces, half, parts)),
+        None => parts.push(Paraboloid::new(&pieces[root].net, pieces[root].domain)),
     }
 }
 
 /// Up to eight pieces that make up a piece with more parts than a leaf holds: again and again the one with the most
 /// parts gives way to its halves, until none has more than a leaf holds.
-fn children_of(pieces: &[Piece], root: usize) -> Vec<usize> {
-    let mut children = vec![root];
+fn children_of(pieces: &[Piece], root: usize) -> ArrayVec<usize, LANES> {
+    let mut children = ArrayVec::from_iter([root]);
     while children.len() < LANES {
-        let parts = |k: usize| parts_below(pieces, children[k]).len();
-        let Some(largest) = (0..children.len()).max_by_key(|&k| parts(k)).filter(|&k| parts(k) > LANES) else { break };
-        children.splice(largest..=largest, pieces[children[largest]].halves.into_iter().flatten());
+        let parts = |place: &usize| pieces[children[*place]].parts;
+        let Some(largest) = (0..children.len()).max_by_key(parts).filter(|place| parts(place) > LANES) else { break };
+        let halves = pieces[children.swap_remove(largest)].halves;
+        children.extend(halves.into_iter().flatten());
     }
     children
 }
