@@ -104,17 +104,22 @@ fn every_clear_ray_has_its_answer() {
 #[test]
 fn hits_are_exact() {
     let patches = prepared();
-    let (mut sum, mut largest, mut count) = (0.0, 0f64, 0);
+    let (mut sum, mut largest, mut count, mut tilt) = (0.0, 0f64, 0, 0f64);
     for line in RAYS.lines().skip(1) {
         let fields: Vec<&str> = line.split(',').collect();
         let patch = &patches[fields[0]];
         let net = patch.net();
         let case = Case::new(line, &fields[2..], fields[8], [fields[9], fields[10], fields[11]]);
         let (Some(_), "clear", Some(hit)) = (case.t, case.class, patch.intersect(&case.ray)) else { continue };
-        let expected = net.eval(fields[12].parse().unwrap(), fields[13].parse().unwrap());
-        let error = net.eval(hit.u, hit.v).distance(expected) / net.bounds().diagonal();
+        let expected = net.derivatives(fields[12].parse().unwrap(), fields[13].parse().unwrap());
+        let error = net.eval(hit.u, hit.v).distance(expected.position) / net.bounds().diagonal();
         (sum, largest, count) = (sum + error, largest.max(error), count + 1);
+        // Where the partial derivatives span a plane.
+        if let Some(normal) = expected.dpdu.cross(expected.dpdv).try_normalize() {
+            tilt = tilt.max(patch.normal(hit.u, hit.v).distance(normal).to_degrees());
+        }
     }
+    assert!(tilt < 1e-3, "a normal is {tilt} degrees off");
     // Rounding of coordinates 1e5 times the size of a patch makes 1e-11; the rest is exact to 1e-12.
     assert!(sum / f64::from(count) < 1e-11 && largest < 1e-9, "mean {} largest {largest}", sum / f64::from(count));
 }

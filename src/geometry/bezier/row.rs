@@ -2,6 +2,7 @@
 
 use crate::math::lanes::Lanes;
 use std::ops::{Add, Mul, Sub};
+use wide::f64x4;
 
 /// Four numbers, which compilers turn into vector instructions of any width.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +24,8 @@ impl Row {
     pub(super) const ZERO: Self = Self([0.0; 4]);
 
     #[inline(always)]
-    fn zip(self, b: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self([f(self.0[0], b.0[0]), f(self.0[1], b.0[1]), f(self.0[2], b.0[2]), f(self.0[3], b.0[3])])
+    fn zip(self, b: Self, f: impl Fn(f64x4, f64x4) -> f64x4) -> Self {
+        Self(f(f64x4::new(self.0), f64x4::new(b.0)).to_array())
     }
 
     /// `self * s + c`.
@@ -48,13 +49,13 @@ impl Row {
     /// The lesser ones; no care is taken of what is not a number, which would cost as much again.
     #[inline(always)]
     fn min(self, b: Self) -> Self {
-        self.zip(b, |a, b| if a < b { a } else { b })
+        self.zip(b, f64x4::fast_min)
     }
 
     /// The greater ones, in the same way.
     #[inline(always)]
     fn max(self, b: Self) -> Self {
-        self.zip(b, |a, b| if a > b { a } else { b })
+        self.zip(b, f64x4::fast_max)
     }
 }
 
