@@ -8,7 +8,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use glam::{DVec2, DVec3};
 use patchlight::geometry::bezier::{ControlNet, Patch, QuadMesh, read_bpt};
 use patchlight::geometry::{Aggregate, Primitive};
-use patchlight::math::{Aabb, Ray, Sampler, Stream, warp};
+use patchlight::math::{Aabb, LANES, Ray, Sampler, Stream, warp};
 use rayon::prelude::*;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -54,24 +54,30 @@ fn incoherent(nets: &[ControlNet]) -> Vec<Ray> {
         .collect()
 }
 
-/// The rays of a camera that see the surface, row by row.
+/// The rays of a camera with 1024 x 1024 pixels that see the surface, row by row: those from the middle of the film.
 fn coherent(nets: &[ControlNet], aggregate: &Aggregate) -> Vec<Ray> {
     let bounds = bounds(nets);
     let eye = bounds.center() + bounds.diagonal() * DVec3::new(0.5, -1.1, 0.8);
     let right = (bounds.center() - eye).cross(DVec3::Z).normalize();
     let up = right.cross(bounds.center() - eye).normalize();
-    let side = 256;
+    let side = 1024;
     let rays = (0..side * side).map(|k| {
         let film = DVec2::new((k % side) as f64, (k / side) as f64) / side as f64 - 0.5;
         Ray::new(eye, bounds.center() + bounds.diagonal() * (film.x * right + film.y * up) - eye)
     });
     let seen: Vec<Ray> = rays.filter(|ray| aggregate.closest_hit(ray).is_some()).collect();
-    let skip = (seen.len() - RAYS.min(seen.len())) / 2;
-    seen.into_iter().skip(skip).take(RAYS).collect()
+    let count = 16 * RAYS;
+    let skip = (seen.len() - count.min(seen.len())) / 2;
+    seen.into_iter().skip(skip).take(count).collect()
 }
 
 fn count<T>(rays: &[Ray], hit: impl Fn(&Ray) -> Option<T>) -> usize {
     rays.iter().filter(|ray| hit(black_box(ray)).is_some()).count()
+}
+
+fn count_together(rays: &[Ray], patches: &Aggregate) -> usize {
+    let hits = |bundle: &[Ray; LANES]| patches.closest_hits(black_box(bundle)).into_iter().flatten().count();
+    rays.as_chunks::<LANES>().0.iter().map(hits).sum()
 }
 
 fn speed(c: &mut Criterion) {
@@ -87,11 +93,14 @@ fn speed(c: &mut Criterion) {
             group.bench_function("patches, all threads", |b| {
                 b.iter(|| rays.par_iter().filter(|ray| patches.closest_hit(black_box(ray)).is_some()).count())
             });
+            if kind == "coherent" {
+                group.bench_function("patches, eight rays together", |b| b.iter(|| count_together(&rays, &patches)));
+            }
             for (steps, mesh) in &meshes {
                 let id = BenchmarkId::new("triangles", steps);
                 group.bench_function(id, |b| b.iter(|| count(&rays, |ray| triangles::closest_hit(mesh, ray))));
             }
-            let few = &rays[..rays.len() / 16];
+            let few = &rays[..RAYS / 16];
             group.throughput(Throughput::Elements(few.len() as u64));
             group.bench_function("newton", |b| b.iter(|| count(few, |ray| newton::closest_hit(&newton, ray))));
             group.bench_function("newton behind boxes", |b| {
@@ -102,23 +111,32 @@ fn speed(c: &mut Criterion) {
     }
 }
 
-/// Time to prepare a patch, and of a ray by the number of patches.
+/// Time to prepare a patch, to take over a moved control point, and of a ray, by the number of patches.
 fn scaling(c: &mut Criterion) {
     let mut group = c.benchmark_group("build");
     for (name, net) in [("hill", hill()[0]), ("teapot handle", teapot()[12])] {
         group.bench_function(name, |b| b.iter(|| Patch::new(black_box(net))));
     }
     group.finish();
-    let mut group = c.benchmark_group("patches by number");
-    group.sample_size(10).throughput(Throughput::Elements(RAYS as u64));
-    for copies in [1, 32, 1000] {
-        let nets = scattered(&teapot(), copies);
+    for copies in [0, 1, 32, 1000] {
+        let nets = if copies == 0 { hill() } else { scattered(&teapot(), copies) };
         let (patches, rays) = (aggregate(&nets), incoherent(&nets));
-        group.bench_function(BenchmarkId::from_parameter(nets.len()), |b| {
-            b.iter(|| count(&rays, |r| patches.closest_hit(r)))
-        });
+        let mut group = c.benchmark_group("ray by number of patches");
+        group.sample_size(10).throughput(Throughput::Elements(RAYS as u64));
+        let id = BenchmarkId::from_parameter(nets.len());
+        group.bench_function(id.clone(), |b| b.iter(|| count(&rays, |r| patches.closest_hit(r))));
+        group.finish();
+        c.benchmark_group("edit by number of patches").bench_function(id, |b| b.iter(|| edited(&patches, &nets[0])));
     }
-    group.finish();
+}
+
+/// The tree after a control point of the first patch has moved.
+fn edited(patches: &Aggregate, net: &ControlNet) -> Aggregate {
+    let mut net = *net;
+    net.points[1][1].z += 0.1;
+    let mut primitives = patches.primitives().to_vec();
+    primitives[0] = Primitive::Patch(Arc::new(Patch::new(net)));
+    patches.refitted(primitives)
 }
 
 /// So many copies of some patches, side by side on a square.

@@ -1,5 +1,6 @@
 //! A bounding volume hierarchy with eight children a node, over anything that has a box.
 
+use crate::math::lanes::LANES;
 use crate::math::{Aabb, Ray};
 use arrayvec::ArrayVec;
 
@@ -88,7 +89,40 @@ impl Bvh {
             }
             let node = &self.nodes[child as usize];
             let near = node.entry_distances(ray, inverse);
-            push_sorted(&mut stack, &near, &node.child);
+            push_sorted(&mut stack, &near, &node.child[..node.count as usize]);
+        }
+    }
+
+    /// Calls `visit(item, bits, rays)` for items whose box any of eight rays meets, with a bit for each ray that does.
+    /// `visit` may shorten the rays.
+    #[inline(always)]
+    pub fn traverse_together(&self, rays: &mut [Ray; LANES], mut visit: impl FnMut(u32, u32, &mut [Ray; LANES])) {
+        let columns = Columns::new(rays);
+        let mut stack: ArrayVec<(f64, i32, u32), STACK_CAPACITY> = ArrayVec::new();
+        if !self.nodes.is_empty() {
+            stack.push((f64::NEG_INFINITY, 0, (1 << LANES) - 1));
+        }
+        while let Some((near, child, mut met)) = stack.pop() {
+            for (lane, ray) in rays.iter().enumerate() {
+                // Where a ray ends before the nearest of them enters, so it does where it enters.
+                met &= !(u32::from(near > ray.t_max) << lane);
+            }
+            if met == 0 {
+                continue;
+            }
+            if child < 0 {
+                visit(!child as u32, met, rays);
+                continue;
+            }
+            let node = &self.nodes[child as usize];
+            let bottom = stack.len();
+            for slot in 0..node.count as usize {
+                let (entered, near) = node.entry_together(slot, &columns, rays);
+                if entered & met != 0 {
+                    stack.push((near, node.child[slot], entered & met));
+                }
+            }
+            stack[bottom..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
         }
     }
 
@@ -158,6 +192,33 @@ impl Node {
         squares
     }
 
+    /// Which of eight rays meet the box of a child (a bit each), and the least t at which one enters it.
+    #[inline(always)]
+    fn entry_together(&self, slot: usize, columns: &Columns, rays: &[Ray; LANES]) -> (u32, f64) {
+        let (mut near, mut far): ([f64; LANES], [f64; LANES]) = (columns.t_min, [0.0; LANES]);
+        for (far, ray) in far.iter_mut().zip(rays) {
+            *far = ray.t_max;
+        }
+        for axis in 0..3 {
+            let (low, high) = (self.min[axis][slot], self.max[axis][slot]);
+            for lane in 0..LANES {
+                let a = (low - columns.origin[axis][lane]) * columns.inverse[axis][lane];
+                let b = (high - columns.origin[axis][lane]) * columns.inverse[axis][lane];
+                let (enter, leave) = if a < b { (a, b) } else { (b, a) };
+                near[lane] = if enter > near[lane] { enter } else { near[lane] };
+                far[lane] = if leave < far[lane] { leave } else { far[lane] };
+            }
+        }
+        let (mut entered, mut nearest) = (0, f64::INFINITY);
+        for lane in 0..LANES {
+            // Far grows as for a single ray.
+            let meets = near[lane] <= far[lane] * (1.0 + 4.0 * f64::EPSILON);
+            entered |= u32::from(meets) << lane;
+            nearest = if meets && near[lane] < nearest { near[lane] } else { nearest };
+        }
+        (entered, nearest)
+    }
+
     /// For each child the t at which the ray enters its box, or infinity where it misses.
     ///
     /// Comparisons are written so that a NaN (a ray in a face of the box) leaves the interval as it was.
@@ -184,18 +245,42 @@ impl Node {
     }
 }
 
+/// Eight rays, coordinate by coordinate.
+struct Columns {
+    origin: [[f64; LANES]; 3],
+    /// 1 over the direction; finite, so that a ray in a face of a box makes no NaN.
+    inverse: [[f64; LANES]; 3],
+    t_min: [f64; LANES],
+}
+
+impl Columns {
+    #[inline(always)]
+    fn new(rays: &[Ray; LANES]) -> Self {
+        let (mut origin, mut inverse, mut t_min) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3], [0.0; LANES]);
+        for (lane, ray) in rays.iter().enumerate() {
+            for axis in 0..3 {
+                let d = ray.direction[axis];
+                origin[axis][lane] = ray.origin[axis];
+                inverse[axis][lane] = 1.0 / if d.abs() < 1e-300 { 1e-300f64.copysign(d) } else { d };
+            }
+            t_min[lane] = ray.t_min;
+        }
+        Self { origin, inverse, t_min }
+    }
+}
+
 /// Nodes and items still to visit with the t where they begin, the nearest on top.
 type Stack = ArrayVec<(f64, i32), STACK_CAPACITY>;
 
 /// Pushes the children that were met, far ones first, by insertion: there are few.
 #[inline(always)]
-fn push_sorted(stack: &mut Stack, near: &[f64; WIDTH], child: &[i32; WIDTH]) {
+fn push_sorted(stack: &mut Stack, near: &[f64; WIDTH], children: &[i32]) {
     let first = stack.len();
-    for slot in 0..WIDTH {
-        if near[slot] == f64::INFINITY {
+    for (&near, &child) in near.iter().zip(children) {
+        if near == f64::INFINITY {
             continue;
         }
-        stack.push((near[slot], child[slot]));
+        stack.push((near, child));
         let mut k = stack.len() - 1;
         while k > first && stack[k].0 > stack[k - 1].0 {
             stack.swap(k, k - 1);

@@ -8,11 +8,12 @@ use super::photon;
 use super::plan::{CAMERA_SAMPLES, Plan};
 use super::{Cancel, Rows};
 use crate::geometry::{Hit, Primitive};
-use crate::math::{Ray, Rgb, Sampler, Stream, sobol};
+use crate::math::{LANES, Ray, Rgb, Sampler, Stream, sobol};
 use crate::world::{Light, Lobe, Scattering, Surface, SurfacePoint, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Both sides of an interface are followed this often on a path; then one is chosen at random.
 const FOLLOWED_SPLITS: u32 = 2;
@@ -123,8 +124,10 @@ fn strip_pass(
             return None;
         }
         for row in rows.clone() {
-            for column in left..(left + TILE).min(width) {
-                let radiance = walk.sample_pixel(row * width + column, seed, iteration);
+            let columns = left..(left + TILE).min(width);
+            let mut starts = walk.starts(row, columns.clone(), seed, iteration).into_iter();
+            for column in columns {
+                let radiance = walk.sample_pixel(row * width + column, &mut starts, iteration);
                 walk.batch.radiance[((row - rows.start) * width + column) as usize] = radiance;
             }
         }
@@ -175,12 +178,39 @@ enum Last {
 }
 
 impl Walk<'_> {
-    /// All samples of an iteration for one pixel. Visible points, which are most of the work, are left by all of them
-    /// where they meet different surfaces, else by one of them for all.
-    fn sample_pixel(&mut self, pixel: u32, seed: u64, iteration: u64) -> Rgb {
+    /// All samples of an iteration for some pixels of a row, pixel by pixel, as far as the first surface: rays side by side
+    /// go down the trees together.
+    fn starts(&mut self, row: u32, columns: Range<u32>, seed: u64, iteration: u64) -> Vec<Start> {
+        let camera = &self.plan.camera;
         let samples = self.plan.camera_samples(iteration);
-        let starts: ArrayVec<Start, { CAMERA_SAMPLES as usize }> =
-            samples.map(|index| self.start(pixel, seed, index)).collect();
+        let mut starts: Vec<Start> = columns
+            .flat_map(|column| samples.clone().map(move |index| (column, index)))
+            .map(|(column, index)| {
+                let pixel = u64::from(row * camera.width + column);
+                let mut sampler = Sampler::new(seed, self.plan.stream(Stream::Camera), pixel, index);
+                let ray = camera.ray(DVec2::new(f64::from(column), f64::from(row)) + sampler.next_2d());
+                Start { hit: None, sampler, ray }
+            })
+            .collect();
+        self.batch.counters.rays += starts.len() as u64;
+        let mut bundles = starts.chunks_exact_mut(LANES);
+        for bundle in &mut bundles {
+            let hits = self.world.aggregate.closest_hits(&std::array::from_fn(|k| bundle[k].ray));
+            for (start, hit) in bundle.iter_mut().zip(hits) {
+                start.hit = hit;
+            }
+        }
+        for start in bundles.into_remainder() {
+            start.hit = self.world.aggregate.closest_hit(&start.ray);
+        }
+        starts
+    }
+
+    /// All samples of an iteration for one pixel, whose starts are the next ones. Visible points, which are most of the
+    /// work, are left by all of them where they meet different surfaces, else by one of them for all.
+    fn sample_pixel(&mut self, pixel: u32, starts: &mut impl Iterator<Item = Start>, iteration: u64) -> Rgb {
+        let samples = self.plan.camera_samples(iteration);
+        let starts: ArrayVec<Start, { CAMERA_SAMPLES as usize }> = starts.take(samples.count()).collect();
         let count = starts.len() as u64;
         let surface = |start: &Start| start.hit.map(|hit| hit.primitive);
         let on_an_edge = starts.iter().any(|start| surface(start) != surface(&starts[0]));
@@ -202,13 +232,6 @@ impl Walk<'_> {
             self.batch.counters.dropped_samples += 1;
             Rgb::ZERO
         }
-    }
-
-    fn start(&mut self, pixel: u32, seed: u64, index: u64) -> Start {
-        let mut sampler = Sampler::new(seed, self.plan.stream(Stream::Camera), u64::from(pixel), index);
-        let corner = DVec2::new(f64::from(pixel % self.plan.camera.width), f64::from(pixel / self.plan.camera.width));
-        let ray = self.plan.camera.ray(corner + sampler.next_2d());
-        Start { hit: self.closest_hit(&ray), sampler, ray }
     }
 
     fn closest_hit(&mut self, ray: &Ray) -> Option<Hit> {

@@ -7,7 +7,7 @@
 use glam::DVec3;
 use patchlight::geometry::bezier::{ControlNet, Patch, read_bpt};
 use patchlight::geometry::{Aggregate, Primitive};
-use patchlight::math::Ray;
+use patchlight::math::{LANES, Ray};
 use std::process::{Command, Output};
 use std::{collections::HashMap, fs, sync::Arc};
 
@@ -99,6 +99,31 @@ fn every_clear_ray_has_its_answer() {
         assert_eq!(patch.occluded(&case.ray), case.t.is_some(), "{line}");
     }
     assert!(clear > 3000 && delicate > 300, "{clear} clear, {delicate} delicate");
+}
+
+#[test]
+fn eight_rays_together_have_their_answers() {
+    let patches = prepared();
+    let mut clear = 0;
+    let lines: Vec<Vec<&str>> = RAYS.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    for lines in lines.chunk_by(|a, b| a[0] == b[0]).flat_map(|of_one_patch| of_one_patch.chunks(LANES)) {
+        let patch = &patches[lines[0][0]];
+        let case = |k: usize| {
+            let fields = &lines[k.min(lines.len() - 1)];
+            Case::new(fields[1], &fields[2..], fields[8], [fields[9], fields[10], fields[11]])
+        };
+        let cases: [Case; LANES] = std::array::from_fn(case);
+        let hits = patch.intersect_together(&std::array::from_fn(|k| cases[k].ray), (1 << lines.len()) - 1);
+        for (k, (case, hit)) in cases.iter().zip(hits).enumerate() {
+            if k >= lines.len() {
+                assert!(hit.is_none(), "a ray that does not count");
+            } else if case.class == "clear" {
+                assert!(case.error(hit.map(|h| h.t)) < 1e-9 * patch.bounds().diagonal(), "{:?}: {hit:?}", lines[k]);
+                clear += 1;
+            }
+        }
+    }
+    assert!(clear > 3000, "{clear} clear");
 }
 
 #[test]

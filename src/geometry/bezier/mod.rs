@@ -17,6 +17,7 @@ mod row;
 mod row_net;
 mod search;
 mod surface;
+mod together;
 mod traverse;
 mod tree;
 mod unit;

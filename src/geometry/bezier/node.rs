@@ -15,6 +15,7 @@ pub(super) struct Node {
     low: [[f32; LANES]; 3],
     high: [[f32; LANES]; 3],
     children: [Link; LANES],
+    count: usize,
 }
 
 impl Node {
@@ -26,6 +27,7 @@ impl Node {
             low: [0, 1, 2].map(|axis| corner(&|b| round_down(b.min[axis] - ROUNDING), f32::INFINITY)),
             high: [0, 1, 2].map(|axis| corner(&|b| round_up(b.max[axis] + ROUNDING), f32::INFINITY)),
             children: from_fn(|k| children.get(k).copied().unwrap_or_default()),
+            count: boxes.len(),
         }
     }
 
@@ -44,6 +46,20 @@ impl Node {
         (l.bits(l.less(near, far)), l.store(near))
     }
 
+    /// Which of eight rays meet box k (a bit a ray), and where they enter it.
+    #[inline(always)]
+    pub(super) fn test_one<L: Lanes>(&self, l: L, k: usize, rays: &PacketRay<L>) -> (u32, [f32; LANES]) {
+        let mut near = rays.z_min;
+        let mut far = rays.z_max;
+        for axis in 0..3 {
+            let low = l.mul(l.sub(l.splat(self.low[axis][k]), rays.origin[axis]), rays.inverse[axis]);
+            let high = l.mul(l.sub(l.splat(self.high[axis][k]), rays.origin[axis]), rays.inverse[axis]);
+            near = l.max(near, l.min(low, high));
+            far = l.min(far, l.max(low, high));
+        }
+        (l.bits(l.less(near, far)), l.store(near))
+    }
+
     /// How far a point is from each box; infinite where there is none.
     pub(super) fn distances(&self, point: DVec3) -> [f64; LANES] {
         from_fn(|k| {
@@ -53,6 +69,12 @@ impl Node {
             });
             DVec3::from_array(outside).length()
         })
+    }
+
+    /// How many children there are.
+    #[inline(always)]
+    pub(super) fn count(&self) -> usize {
+        self.count
     }
 
     /// Child k.

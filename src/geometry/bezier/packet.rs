@@ -19,18 +19,65 @@ pub(super) struct Packet {
     slope_error: [Numbers; 2],
     convex: Numbers,
     domains: [Numbers; 4],
-    /// Bit k is set where there is a part.
-    occupied: u32,
+    /// How many parts there are.
+    count: usize,
 }
 
 type Numbers = [f32; LANES];
 
-/// What the paraboloids leave to do. On each of the two branches of a paraboloid, along which the height of the ray over
+/// What the lanes of vectors stand for while paraboloids are tested.
+pub(super) trait Lineup: Copy {
+    /// The lanes that count for a packet with so many parts: a bit each.
+    fn lanes(self, count: usize) -> u32;
+
+    /// The numbers that belong to the lanes.
+    fn numbers<L: Lanes>(self, l: L, of: &Numbers) -> L::Vector;
+
+    /// Three of them.
+    #[inline(always)]
+    fn numbers3<L: Lanes>(self, l: L, [x, y, z]: &[Numbers; 3]) -> [L::Vector; 3] {
+        [self.numbers(l, x), self.numbers(l, y), self.numbers(l, z)]
+    }
+}
+
+/// One ray against all parts of a packet.
+#[derive(Clone, Copy)]
+pub(super) struct AllParts;
+
+/// Eight rays against one part of a packet.
+#[derive(Clone, Copy)]
+pub(super) struct OnePart(pub(super) usize);
+
+impl Lineup for AllParts {
+    #[inline(always)]
+    fn lanes(self, count: usize) -> u32 {
+        (1 << count) - 1
+    }
+
+    #[inline(always)]
+    fn numbers<L: Lanes>(self, l: L, of: &Numbers) -> L::Vector {
+        l.load(of)
+    }
+}
+
+impl Lineup for OnePart {
+    #[inline(always)]
+    fn lanes(self, _: usize) -> u32 {
+        (1 << LANES) - 1
+    }
+
+    #[inline(always)]
+    fn numbers<L: Lanes>(self, l: L, of: &Numbers) -> L::Vector {
+        l.splat(of[self.0])
+    }
+}
+
+/// What the paraboloids leave to do, by lanes: of one ray and all parts, or of eight rays and one part. On each of the two branches of a paraboloid, along which the height of the ray over
 /// it rises or falls, the surface has one root at most.
 pub(super) struct Candidates {
-    /// Bit k: the surface of part k may have a root on its first branch; bit 8 + k: on its second one.
+    /// Bit k: the surface may have a root on the first branch of lane k; bit 8 + k: on its second one.
     pub(super) branches: u32,
-    /// Bit k: nothing is known of part k.
+    /// Bit k: nothing is known in lane k.
     pub(super) unknown: u32,
     /// The roots of the paraboloids: z on the ray, and alpha and beta; first branches, then second ones.
     z: [Numbers; 2],
@@ -63,6 +110,12 @@ impl Candidates {
             slope: f64::from(if branch == 0 { self.slope[k] } else { -self.slope[k] }),
         }
     }
+
+    /// Alpha and beta of the roots on a branch.
+    #[inline(always)]
+    pub(super) fn starts<L: Lanes>(&self, l: L, branch: usize) -> [L::Vector; 2] {
+        [l.load(&self.start[branch][0]), l.load(&self.start[branch][1])]
+    }
 }
 
 impl Packet {
@@ -88,8 +141,14 @@ impl Packet {
                 numbers(&|p| p.domain.half_x),
                 numbers(&|p| p.domain.half_y),
             ],
-            occupied: (1 << parts.len()) - 1,
+            count: parts.len(),
         }
+    }
+
+    /// How many parts there are.
+    #[inline(always)]
+    pub(super) fn count(&self) -> usize {
+        self.count
     }
 
     /// Part k of the parameter square, and the factor by which it may be enlarged with still one root a branch.
@@ -100,7 +159,7 @@ impl Packet {
         (Domain { x: at(x), y: at(y), half_x: at(half_x), half_y: at(half_y) }, MARGIN * f64::from(self.convex[k]))
     }
 
-    /// Intersects the ray with the paraboloids.
+    /// Intersects a ray with the paraboloids of all parts, or eight rays with that of one.
     ///
     /// Let w count along the ray from its point nearest to the center of the part. The height of the ray over the
     /// paraboloid is `h(w) = c + b w + a w^2`, and over the surface it differs from that by `error` at most. Between two
@@ -109,8 +168,8 @@ impl Packet {
     /// roots of the surface lie where `|h| <= error`, thus where `|h'|^2 >= d - 4 |a| error`; if that is more than
     /// `slope_error` squared, then there is one at most on each side of the vertex. If `d + 4 |a| error < 0`, there is none.
     #[inline(always)]
-    pub(super) fn test<L: Lanes>(&self, l: L, ray: &PacketRay<L>) -> Candidates {
-        let center = l.load3(&self.center);
+    pub(super) fn test<L: Lanes>(&self, l: L, lineup: impl Lineup, ray: &PacketRay<L>) -> Candidates {
+        let center = lineup.numbers3(l, &self.center);
         let [x, y, z] = ray.direction;
         let from_center =
             [l.sub(ray.origin[0], center[0]), l.sub(ray.origin[1], center[1]), l.sub(ray.origin[2], center[2])];
@@ -120,27 +179,28 @@ impl Packet {
             l.mul_add(nearest, y, from_center[1]),
             l.mul_add(nearest, z, from_center[2]),
         ];
-        let [axis_a, axis_b, axis_c] = [l.load3(&self.axes[0]), l.load3(&self.axes[1]), l.load3(&self.axes[2])];
+        let [axis_a, axis_b, axis_c] =
+            [lineup.numbers3(l, &self.axes[0]), lineup.numbers3(l, &self.axes[1]), lineup.numbers3(l, &self.axes[2])];
         let at @ [alpha, beta, gamma] = [l.dot(axis_a, foot), l.dot(axis_b, foot), l.dot(axis_c, foot)];
         let along @ [d_alpha, d_beta, d_gamma] =
             [l.dot(axis_a, ray.direction), l.dot(axis_b, ray.direction), l.dot(axis_c, ray.direction)];
-        let [h_aa, h_ab, h_bb] = l.load3(&self.hessian);
+        let [h_aa, h_ab, h_bb] = lineup.numbers3(l, &self.hessian);
         // Of the paraboloid, by alpha and by beta.
         let slope_a = l.mul_add(h_aa, alpha, l.mul(h_ab, beta));
         let slope_b = l.mul_add(h_ab, alpha, l.mul(h_bb, beta));
         let height = l.mul_add(slope_a, alpha, l.mul(slope_b, beta));
         let turn_a = l.mul_add(h_aa, d_alpha, l.mul(h_ab, d_beta));
         let turn_b = l.mul_add(h_ab, d_alpha, l.mul(h_bb, d_beta));
-        let c = l.mul_add(l.splat(-0.5), height, l.sub(gamma, l.load(&self.offset)));
+        let c = l.mul_add(l.splat(-0.5), height, l.sub(gamma, lineup.numbers(l, &self.offset)));
         let b = l.sub(d_gamma, l.mul_add(slope_a, d_alpha, l.mul(slope_b, d_beta)));
         let a = l.scale(-0.5, l.mul_add(turn_a, d_alpha, l.mul(turn_b, d_beta)));
 
-        let error = l.load(&self.error);
+        let error = lineup.numbers(l, &self.error);
         let b_squared = l.mul(b, b);
         let discriminant = l.mul_add(l.splat(-4.0), l.mul(a, c), b_squared);
         let spread = l.scale(4.0, l.mul(l.abs(a), error));
         let steepness = l.sub(discriminant, spread);
-        let [error_a, error_b] = [l.load(&self.slope_error[0]), l.load(&self.slope_error[1])];
+        let [error_a, error_b] = [lineup.numbers(l, &self.slope_error[0]), lineup.numbers(l, &self.slope_error[1])];
         let slope_error = l.mul_add(error_a, l.abs(d_alpha), l.mul(error_b, l.abs(d_beta)));
         let known = l.less(l.mul_add(l.splat(2e-6), b_squared, l.mul(slope_error, slope_error)), steepness);
         let none = l.less(l.mul_add(l.splat(2e-6), b_squared, l.add(discriminant, spread)), l.splat(0.0));
@@ -149,16 +209,17 @@ impl Packet {
         let sum = l.mul_add(sign, l.sqrt(discriminant), b);
         let slack = l.div(error, l.sqrt(steepness));
         let reach = [
-            l.mul_add(l.abs(d_alpha), slack, l.load(&self.extent[0])),
-            l.mul_add(l.abs(d_beta), slack, l.load(&self.extent[1])),
+            l.mul_add(l.abs(d_alpha), slack, lineup.numbers(l, &self.extent[0])),
+            l.mul_add(l.abs(d_beta), slack, lineup.numbers(l, &self.extent[1])),
         ];
         let first = Root::new(l, l.div(l.scale(-2.0, c), sum), nearest, &at, &along);
         let second = Root::new(l, l.div(l.scale(-0.5, sum), a), nearest, &at, &along);
-        let known_bits = l.bits(known) & self.occupied;
+        let lanes = lineup.lanes(self.count);
+        let known_bits = l.bits(known) & lanes;
         let branches = [first.counts(l, ray, slack, reach), second.counts(l, ray, slack, reach)];
-        let mut unknown = !(l.bits(known) | l.bits(none)) & self.occupied;
+        let mut unknown = !(known_bits | l.bits(none)) & lanes;
         if unknown != 0 {
-            unknown &= self.boxes_met(l, ray, nearest, &at, &along);
+            unknown &= self.boxes_met(l, lineup, ray, nearest, &at, &along);
         }
         Candidates {
             branches: (branches[0] & known_bits) | (branches[1] & known_bits) << LANES,
@@ -175,6 +236,7 @@ impl Packet {
     fn boxes_met<L: Lanes>(
         &self,
         l: L,
+        lineup: impl Lineup,
         ray: &PacketRay<L>,
         nearest: L::Vector,
         at: &[L::Vector; 3],
@@ -184,7 +246,7 @@ impl Packet {
         for k in 0..3 {
             // A ray along a face: replaced by one that moves by less than rounding.
             let speed = l.mul(l.sign(along[k]), l.max(l.abs(along[k]), l.splat(1e-12)));
-            let extent = l.load(&self.extent[k]);
+            let extent = lineup.numbers(l, &self.extent[k]);
             let low = l.div(l.sub(l.sub(l.splat(0.0), extent), at[k]), speed);
             let high = l.div(l.sub(extent, at[k]), speed);
             near = l.max(near, l.min(low, high));
@@ -217,27 +279,50 @@ impl<L: Lanes> Root<L> {
     }
 }
 
-/// A ray in unit space, ready for tests of eight boxes or parts at once.
+/// A ray in unit space for all lanes, or one for each, ready for tests of eight boxes or parts at once.
 pub(super) struct PacketRay<L: Lanes> {
     pub(super) origin: [L::Vector; 3],
-    direction: [L::Vector; 3],
+    pub(super) direction: [L::Vector; 3],
     pub(super) inverse: [L::Vector; 3],
     pub(super) z_min: L::Vector,
     pub(super) z_max: L::Vector,
 }
 
 impl<L: Lanes> PacketRay<L> {
+    /// One ray for all lanes.
     #[inline(always)]
     pub(super) fn new(l: L, ray: &UnitRay) -> Self {
         let direction = ray.direction.as_vec3();
-        // No zero, hence no NaN in the test of a box.
-        let inverse = direction.signum() / direction.abs().max(Vec3::splat(1e-20));
         Self {
             origin: l.splat3(ray.origin.as_vec3().to_array()),
             direction: l.splat3(direction.to_array()),
-            inverse: l.splat3(inverse.to_array()),
-            z_min: l.splat(ray.z_min as f32 - ROUNDING as f32),
+            inverse: l.splat3(inverse(direction).to_array()),
+            z_min: l.splat(lower_end(ray)),
             z_max: l.splat(upper_end(ray)),
+        }
+    }
+
+    /// A ray for each lane.
+    #[inline(always)]
+    pub(super) fn together(l: L, rays: &[UnitRay; LANES]) -> Self {
+        let (mut origin, mut direction, mut inverses) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3], [[0.0; LANES]; 3]);
+        let (mut z_min, mut z_max) = ([0.0; LANES], [0.0; LANES]);
+        for (k, ray) in rays.iter().enumerate() {
+            let (o, d) = (ray.origin.as_vec3(), ray.direction.as_vec3());
+            let inverse = inverse(d);
+            for axis in 0..3 {
+                origin[axis][k] = o[axis];
+                direction[axis][k] = d[axis];
+                inverses[axis][k] = inverse[axis];
+            }
+            (z_min[k], z_max[k]) = (lower_end(ray), upper_end(ray));
+        }
+        Self {
+            origin: l.load3(&origin),
+            direction: l.load3(&direction),
+            inverse: l.load3(&inverses),
+            z_min: l.load(&z_min),
+            z_max: l.load(&z_max),
         }
     }
 
@@ -246,6 +331,24 @@ impl<L: Lanes> PacketRay<L> {
     pub(super) fn shorten(&mut self, l: L, ray: &UnitRay) {
         self.z_max = l.splat(upper_end(ray));
     }
+
+    /// Lowers the upper ends to those of the rays.
+    #[inline(always)]
+    pub(super) fn shorten_all(&mut self, l: L, ends: &[f32; LANES]) {
+        self.z_max = l.load(ends);
+    }
+}
+
+/// No zero in, hence no NaN in the test of a box.
+#[inline(always)]
+fn inverse(direction: Vec3) -> Vec3 {
+    direction.signum() / direction.abs().max(Vec3::splat(1e-20))
+}
+
+/// The lower end of what counts, rounded down.
+#[inline(always)]
+fn lower_end(ray: &UnitRay) -> f32 {
+    ray.z_min as f32 - ROUNDING as f32
 }
 
 /// The upper end of what still counts, rounded up.

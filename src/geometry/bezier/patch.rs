@@ -2,9 +2,11 @@ use super::ControlNet;
 use super::normal::unit_normal;
 use super::power::PowerForm;
 use super::row_net::RowNet;
+use super::together::nearest_hits;
 use super::traverse::{Hit, has_hit, nearest_hit};
 use super::tree::PartTree;
-use super::unit::UnitMap;
+use super::unit::{UnitMap, UnitRay};
+use crate::math::lanes::LANES;
 use crate::math::{Aabb, Ray};
 use glam::DVec3;
 
@@ -36,6 +38,13 @@ pub struct PatchHit {
     pub v: f64,
 }
 
+impl From<Hit> for PatchHit {
+    fn from(Hit { root, t }: Hit) -> Self {
+        let parameter = |x: f64| (0.5 * x + 0.5).clamp(0.0, 1.0);
+        Self { t, u: parameter(root.x), v: parameter(root.y) }
+    }
+}
+
 impl Patch {
     /// Prepares a patch. Coordinates that are not finite give a patch that no ray meets.
     pub fn new(net: ControlNet) -> Self {
@@ -61,10 +70,17 @@ impl Patch {
 
     /// The nearest hit with `t_min < t < t_max`.
     pub fn intersect(&self, ray: &Ray) -> Option<PatchHit> {
-        let ray = self.unit_map.ray(ray)?;
-        let Hit { root, t } = nearest_hit(&self.prepared, ray)?;
-        let parameter = |x: f64| (0.5 * x + 0.5).clamp(0.0, 1.0);
-        Some(PatchHit { t, u: parameter(root.x), v: parameter(root.y) })
+        Some(nearest_hit(&self.prepared, self.unit_map.ray(ray)?)?.into())
+    }
+
+    /// The nearest hits of those rays whose bits are set in `counting`: the same as one by one, but quicker for rays that
+    /// go nearly the same way.
+    pub fn intersect_together(&self, rays: &[Ray; LANES], counting: u32) -> [Option<PatchHit>; LANES] {
+        let mut unit_rays = [UnitRay::NONE; LANES];
+        for k in (0..LANES).filter(|k| counting >> k & 1 != 0) {
+            unit_rays[k] = self.unit_map.ray(&rays[k]).unwrap_or(UnitRay::NONE);
+        }
+        nearest_hits(&self.prepared, &unit_rays).map(|hit| hit.map(PatchHit::from))
     }
 
     /// Whether the ray meets the patch at any `t_min < t < t_max`.

@@ -10,6 +10,16 @@ use std::array::from_fn;
 pub(super) struct PowerForm {
     /// `coefficients[i][j]`, three coordinates and a zero, belongs to `x^i y^j`.
     coefficients: [[Row; 4]; 4],
+    /// The same in single precision, `[axis][i][j]`.
+    single: [[[f32; 4]; 4]; 3],
+}
+
+/// A coordinate of eight points with its derivatives by x and by y.
+#[derive(Clone, Copy)]
+pub(super) struct Slopes<L: Lanes> {
+    pub(super) position: L::Vector,
+    pub(super) dx: L::Vector,
+    pub(super) dy: L::Vector,
 }
 
 /// The point at some x, y with the derivatives by x and by y.
@@ -36,11 +46,37 @@ fn horner(l: impl Lanes, c: &[Row; 4], t: f64) -> (Row, Row) {
     (b1.mul_add(l, t, c[0]), slope)
 }
 
+/// A cubic and its derivative at eight places t.
+#[inline(always)]
+fn cubic_of<L: Lanes>(l: L, c: &[f32; 4], t: L::Vector) -> (L::Vector, L::Vector) {
+    let c3 = l.splat(c[3]);
+    let b2 = l.mul_add(c3, t, l.splat(c[2]));
+    let b1 = l.mul_add(b2, t, l.splat(c[1]));
+    (l.mul_add(b1, t, l.splat(c[0])), l.mul_add(l.mul_add(c3, t, b2), t, b1))
+}
+
 impl PowerForm {
     pub(super) fn new(net: &ControlNet) -> Self {
         let along_v = net.points.map(power_from_bernstein);
         let along_u: [[DVec3; 4]; 4] = from_fn(|j| power_from_bernstein(from_fn(|i| along_v[i][j])));
-        Self { coefficients: from_fn(|i| from_fn(|j| Row([along_u[j][i].x, along_u[j][i].y, along_u[j][i].z, 0.0]))) }
+        Self {
+            coefficients: from_fn(|i| from_fn(|j| Row([along_u[j][i].x, along_u[j][i].y, along_u[j][i].z, 0.0]))),
+            single: from_fn(|axis| from_fn(|i| from_fn(|j| along_u[j][i][axis] as f32))),
+        }
+    }
+
+    /// Evaluates one coordinate at eight places, in single precision.
+    #[inline(always)]
+    pub(super) fn slopes<L: Lanes>(&self, l: L, axis: usize, x: L::Vector, y: L::Vector) -> Slopes<L> {
+        let [r0, r1, r2, r3] = &self.single[axis];
+        let (r0, r1, r2, r3) = (cubic_of(l, r0, y), cubic_of(l, r1, y), cubic_of(l, r2, y), cubic_of(l, r3, y));
+        let b2 = l.mul_add(r3.0, x, r2.0);
+        let b1 = l.mul_add(b2, x, r1.0);
+        Slopes {
+            position: l.mul_add(b1, x, r0.0),
+            dx: l.mul_add(l.mul_add(r3.0, x, b2), x, b1),
+            dy: l.mul_add(l.mul_add(l.mul_add(r3.1, x, r2.1), x, r1.1), x, r0.1),
+        }
     }
 
     /// Evaluates at (x, y).

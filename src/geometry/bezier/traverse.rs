@@ -1,7 +1,7 @@
 //! From a ray to its nearest hit: down the tree of parts, nearest first.
 
-use super::newton::{Knowledge, Outcome, Root, solve};
-use super::packet::{Candidates, Packet, PacketRay, upper_end};
+use super::newton::{Domain, Knowledge, Outcome, Root, solve};
+use super::packet::{AllParts, Branch, Candidates, Packet, PacketRay, upper_end};
 use super::paraboloid::MARGIN;
 use super::patch::Prepared;
 use super::search::subdivide;
@@ -21,7 +21,7 @@ pub(super) struct Hit {
 }
 
 /// A tree of at most 12 halvings has 12 levels of nodes at most, each of which leaves 7 siblings behind.
-const STACK_SIZE: usize = 88;
+pub(super) const STACK_SIZE: usize = 88;
 
 /// Pieces looked at by subdivision before it gives up on a ray that runs within the surface; rays that merely graze it
 /// need a few dozen.
@@ -31,7 +31,7 @@ const MAX_PIECES: usize = 5_000;
 pub(super) struct Walk<'a> {
     pub(super) patch: &'a Prepared,
     pub(super) ray: UnitRay,
-    best: Option<Hit>,
+    pub(super) best: Option<Hit>,
     pub(super) pieces_left: usize,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Walk<'a> {
                     push_farthest_first(&mut stack, mask, |k| (near[k], node.child(k)));
                 }
                 Target::Packet(packet) => {
-                    self.visit_packet(l, packet, &packet.test(l, &ray));
+                    self.visit_packet(l, packet, &packet.test(l, AllParts, &ray));
                     if ANY && self.best.is_some() {
                         return self.best;
                     }
@@ -73,21 +73,33 @@ impl<'a> Walk<'a> {
     fn visit_packet(&mut self, l: impl Lanes, packet: &Packet, candidates: &Candidates) {
         for bit in bits(candidates.branches) {
             let branch = candidates.branch(bit);
-            if branch.near > upper_end(&self.ray) {
-                continue;
-            }
             let (part, enlarged) = packet.domain(bit % LANES);
-            let start =
-                (part.x + branch.start.0 * MARGIN * part.half_x, part.y + branch.start.1 * MARGIN * part.half_y);
-            let known = Knowledge { enlarged, slope: branch.slope, reach: f64::INFINITY };
-            match solve(l, &self.patch.power, &self.ray, &part, &known, start) {
-                Outcome::Root(root) => self.accept(root),
-                Outcome::None => {}
-                Outcome::Unknown => subdivide(self, &part),
-            }
+            let (alpha, beta) = branch.start;
+            let start = (part.x + alpha * MARGIN * part.half_x, part.y + beta * MARGIN * part.half_y);
+            self.follow(l, (part, enlarged), &branch, start);
         }
         for k in bits(candidates.unknown) {
             subdivide(self, &packet.domain(k).0);
+        }
+    }
+
+    /// Looks for the root on one branch of a part, from a start in x and y.
+    #[inline(always)]
+    pub(super) fn follow(
+        &mut self,
+        l: impl Lanes,
+        (part, enlarged): (Domain, f64),
+        branch: &Branch,
+        start: (f64, f64),
+    ) {
+        if branch.near > upper_end(&self.ray) {
+            return;
+        }
+        let known = Knowledge { enlarged, slope: branch.slope, reach: f64::INFINITY };
+        match solve(l, &self.patch.power, &self.ray, &part, &known, start) {
+            Outcome::Root(root) => self.accept(root),
+            Outcome::None => {}
+            Outcome::Unknown => subdivide(self, &part),
         }
     }
 
@@ -105,7 +117,7 @@ impl<'a> Walk<'a> {
 
 /// The places of the bits that are set, in rising order.
 #[inline(always)]
-fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
+pub(super) fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let bit = (mask != 0).then(|| mask.trailing_zeros() as usize);
         mask &= mask.wrapping_sub(1);

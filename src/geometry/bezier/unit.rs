@@ -73,6 +73,18 @@ pub(super) struct UnitRay {
 }
 
 impl UnitRay {
+    /// A ray that meets nothing.
+    pub(super) const NONE: Self = Self {
+        origin: DVec3::ZERO,
+        direction: DVec3::Z,
+        z_min: 1.0,
+        z_max: -1.0,
+        speed: 1.0,
+        distance: 0.0,
+        t_min: 0.0,
+        t_max: 0.0,
+    };
+
     /// The parameter of the scene ray at z, if it counts.
     pub(super) fn t_in_range(&self, z: f64) -> Option<f64> {
         let t = (z + self.distance) / self.speed;
