@@ -1,4 +1,9 @@
 //! Bicubic Bezier patches: evaluate, subdivide, bound, intersect, tessellate.
+//!
+//! How a ray finds its nearest hit: `unit` carries it into a space in which the patch has unit size; `tree` leads it through
+//! boxes to packets of eight parts, into which `bending` had the patch cut; `packet` meets it with the paraboloids that
+//! stand for them, which tell where there may be a root, and mostly that it is the only one; `newton` finds it and proves
+//! it; `search` halves those parts of which the paraboloids tell nothing. `together` does the same for eight rays at once.
 
 mod bending;
 mod bpt;
