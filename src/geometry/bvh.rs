@@ -293,11 +293,13 @@ fn union_of(boxes: &[Aabb], items: &[u32]) -> Aabb {
     items.iter().fold(Aabb::EMPTY, |all, &i| all.union(&boxes[i as usize]))
 }
 
-/// Divides items into up to eight groups: again and again splits the group that costs most.
+/// Divides items into up to eight groups: again and again splits the group that costs most, or the largest where groups
+/// are only halved.
 fn partition<'a>(boxes: &[Aabb], items: &'a mut [u32], by_area: bool) -> Vec<&'a mut [u32]> {
     let mut groups = vec![items];
     while groups.len() < WIDTH {
-        let cost = |group: &&mut [u32]| union_of(boxes, group).half_area() * group.len() as f64;
+        let area = |group: &[u32]| if by_area { union_of(boxes, group).half_area() } else { 1.0 };
+        let cost = |group: &&mut [u32]| area(group) * group.len() as f64;
         let splittable = (0..groups.len()).filter(|&g| groups[g].len() > 1);
         let Some(worst) = splittable.max_by(|&a, &b| cost(&groups[a]).total_cmp(&cost(&groups[b]))) else { break };
         let group = groups.swap_remove(worst);

@@ -167,6 +167,39 @@ fn no_ray_slips_between_two_patches() {
     assert!(seams > 500, "{seams} seams");
 }
 
+/// How many rays at these points meet nothing. They come from all around above and below, straight down too.
+fn leaks(nets: &[ControlNet], points: impl Iterator<Item = DVec3>) -> usize {
+    let surface = Aggregate::new(nets.iter().map(|net| Primitive::Patch(Arc::new(Patch::new(*net)))).collect());
+    let directions = (0..300).map(|k| {
+        let k = f64::from(k);
+        if k < 1.0 { DVec3::NEG_Z } else { DVec3::new((1.3 * k).sin(), (2.1 * k).cos(), (0.7 * k).sin() + 1.5) }
+    });
+    let rays = points.flat_map(|point| directions.clone().map(move |d| Ray::new(point - d, d)));
+    rays.filter(|ray| surface.closest_hit(ray).is_none()).count()
+}
+
+#[test]
+fn no_ray_slips_through_a_point_or_an_edge_without_derivatives() {
+    // Where four patches of the teapot come together in a point each: the poles of its bottom and its lid.
+    let teapot: Vec<ControlNet> = patches(TEAPOT).into_iter().map(|(_, net)| net).collect();
+    let collapsed = |net: &ControlNet| {
+        let ends = [net.points[0], net.points[3], net.transposed().points[0], net.transposed().points[3]];
+        ends.into_iter().find(|edge| edge.iter().all(|p| *p == edge[0])).map(|edge| edge[0])
+    };
+    let poles: Vec<DVec3> = teapot.iter().filter_map(collapsed).collect();
+    assert!(poles.len() >= 8, "{} patches with a collapsed edge", poles.len());
+    assert_eq!(leaks(&teapot, poles.into_iter()), 0, "through a pole");
+
+    // Two patches that meet in a ridge, where the edge row of each is equal to the next one.
+    let slope = |side: f64| {
+        let x = [0.0, 0.0, 0.5, 1.0];
+        let point = |i: usize, j: usize| DVec3::new(side * x[i], j as f64 / 3.0, 0.2 * x[i]);
+        ControlNet { points: std::array::from_fn(|i| std::array::from_fn(|j| point(i, j))) }
+    };
+    let ridge = (1..100).map(|k| DVec3::Y * f64::from(k) / 100.0);
+    assert_eq!(leaks(&[slope(1.0), slope(-1.0)], ridge), 0, "through a ridge");
+}
+
 fn patchlight(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_patchlight")).args(arguments).output().unwrap()
 }

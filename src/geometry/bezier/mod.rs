@@ -8,6 +8,7 @@
 mod bending;
 mod bpt;
 mod cubic;
+mod lineup;
 mod mesh;
 mod net;
 mod newton;

@@ -1,5 +1,6 @@
 //! Boxes around pieces of a patch, eight side by side.
 
+use super::lineup::{Lineup, Numbers};
 use super::packet::PacketRay;
 use super::paraboloid::ROUNDING;
 use super::tree::Link;
@@ -12,8 +13,8 @@ use std::array::from_fn;
 /// Up to eight boxes and what is in them.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    low: [[f32; LANES]; 3],
-    high: [[f32; LANES]; 3],
+    low: [Numbers; 3],
+    high: [Numbers; 3],
     children: [Link; LANES],
     count: usize,
 }
@@ -31,32 +32,18 @@ impl Node {
         }
     }
 
-    /// Which boxes the ray meets (bit k for child k), and where it enters them.
+    /// Which boxes a ray meets, or which of eight rays meet one box (bit k for lane k), and where they enter.
     #[inline(always)]
-    pub(super) fn test<L: Lanes>(&self, l: L, ray: &PacketRay<L>) -> (u32, [f32; LANES]) {
+    pub(super) fn test<L: Lanes>(&self, l: L, lineup: impl Lineup, ray: &PacketRay<L>) -> (u32, [f32; LANES]) {
         let mut near = ray.z_min;
         let mut far = ray.z_max;
         for axis in 0..3 {
-            let low = l.mul(l.sub(l.load(&self.low[axis]), ray.origin[axis]), ray.inverse[axis]);
-            let high = l.mul(l.sub(l.load(&self.high[axis]), ray.origin[axis]), ray.inverse[axis]);
+            let low = l.mul(l.sub(lineup.numbers(l, &self.low[axis]), ray.origin[axis]), ray.inverse[axis]);
+            let high = l.mul(l.sub(lineup.numbers(l, &self.high[axis]), ray.origin[axis]), ray.inverse[axis]);
             near = l.max(near, l.min(low, high));
             far = l.min(far, l.max(low, high));
         }
         // A box at infinity is entered at infinity, or never.
-        (l.bits(l.less(near, far)), l.store(near))
-    }
-
-    /// Which of eight rays meet box k (a bit a ray), and where they enter it.
-    #[inline(always)]
-    pub(super) fn test_one<L: Lanes>(&self, l: L, k: usize, rays: &PacketRay<L>) -> (u32, [f32; LANES]) {
-        let mut near = rays.z_min;
-        let mut far = rays.z_max;
-        for axis in 0..3 {
-            let low = l.mul(l.sub(l.splat(self.low[axis][k]), rays.origin[axis]), rays.inverse[axis]);
-            let high = l.mul(l.sub(l.splat(self.high[axis][k]), rays.origin[axis]), rays.inverse[axis]);
-            near = l.max(near, l.min(low, high));
-            far = l.min(far, l.max(low, high));
-        }
         (l.bits(l.less(near, far)), l.store(near))
     }
 

@@ -1,5 +1,6 @@
 //! Eight parts of a patch side by side, and the intersection of a ray with their paraboloids.
 
+use super::lineup::{Lineup, Numbers};
 use super::newton::Domain;
 use super::paraboloid::{MARGIN, Paraboloid, ROUNDING};
 use super::unit::UnitRay;
@@ -23,57 +24,9 @@ pub(super) struct Packet {
     count: usize,
 }
 
-type Numbers = [f32; LANES];
-
-/// What the lanes of vectors stand for while paraboloids are tested.
-pub(super) trait Lineup: Copy {
-    /// The lanes that count for a packet with so many parts: a bit each.
-    fn lanes(self, count: usize) -> u32;
-
-    /// The numbers that belong to the lanes.
-    fn numbers<L: Lanes>(self, l: L, of: &Numbers) -> L::Vector;
-
-    /// Three of them.
-    #[inline(always)]
-    fn numbers3<L: Lanes>(self, l: L, [x, y, z]: &[Numbers; 3]) -> [L::Vector; 3] {
-        [self.numbers(l, x), self.numbers(l, y), self.numbers(l, z)]
-    }
-}
-
-/// One ray against all parts of a packet.
-#[derive(Clone, Copy)]
-pub(super) struct AllParts;
-
-/// Eight rays against one part of a packet.
-#[derive(Clone, Copy)]
-pub(super) struct OnePart(pub(super) usize);
-
-impl Lineup for AllParts {
-    #[inline(always)]
-    fn lanes(self, count: usize) -> u32 {
-        (1 << count) - 1
-    }
-
-    #[inline(always)]
-    fn numbers<L: Lanes>(self, l: L, of: &Numbers) -> L::Vector {
-        l.load(of)
-    }
-}
-
-impl Lineup for OnePart {
-    #[inline(always)]
-    fn lanes(self, _: usize) -> u32 {
-        (1 << LANES) - 1
-    }
-
-    #[inline(always)]
-    fn numbers<L: Lanes>(self, l: L, of: &Numbers) -> L::Vector {
-        l.splat(of[self.0])
-    }
-}
-
-/// What the paraboloids leave to do, by lanes: of one ray and all parts, or of eight rays and one part. On each of the two branches of a paraboloid, along which the height of the ray over
-/// it rises or falls, the surface has one root at most.
+/// What the paraboloids leave to do, by lanes: for one ray and all parts, or for eight rays and one part. On each of the
+/// two branches of a paraboloid, along which the height of the ray over it rises or falls, the surface has one root at
+/// most.
 pub(super) struct Candidates {
     /// Bit k: the surface may have a root on the first branch of lane k; bit 8 + k: on its second one.
     pub(super) branches: u32,
@@ -214,7 +167,7 @@ impl Packet {
         ];
         let first = Root::new(l, l.div(l.scale(-2.0, c), sum), nearest, &at, &along);
         let second = Root::new(l, l.div(l.scale(-0.5, sum), a), nearest, &at, &along);
-        let lanes = lineup.lanes(self.count);
+        let lanes = lineup.counting(self.count);
         let known_bits = l.bits(known) & lanes;
         let branches = [first.counts(l, ray, slack, reach), second.counts(l, ray, slack, reach)];
         let mut unknown = !(known_bits | l.bits(none)) & lanes;

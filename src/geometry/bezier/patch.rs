@@ -48,7 +48,8 @@ impl From<Hit> for PatchHit {
 impl Patch {
     /// Prepares a patch. Coordinates that are not finite give a patch that no ray meets.
     pub fn new(net: ControlNet) -> Self {
-        let bounds = net.bounds();
+        // No ray meets an empty box.
+        let bounds = if net.is_finite() { net.bounds() } else { Aabb::EMPTY };
         let unit_map = UnitMap::new(bounds.center(), bounds.diagonal());
         let unit_net = net.map(|p| unit_map.point(p));
         let rows = RowNet::new(&unit_net);
@@ -216,6 +217,7 @@ mod tests {
             let net = ControlNet { points: from_fn(|i| from_fn(|j| DVec3::from_array(at(4 * i + j)))) };
             let ray = Ray::new(DVec3::from_array(origin), DVec3::from_array(direction.map(round)));
             let patch = Patch::new(net);
+            prop_assert!(patch.memory_bytes() < 65_536, "{} bytes", patch.memory_bytes());
             if let Some(hit) = patch.intersect(&ray) {
                 // 1e-9 of the size is the largest piece that counts as touching.
                 prop_assert!(hit.t > 0.0 && net.eval(hit.u, hit.v).distance(ray.at(hit.t)) < 1e-8);

@@ -5,7 +5,7 @@ use glam::DVec3;
 use std::array::from_fn;
 
 /// A patch as a polynomial in `x = 2 u - 1`, `y = 2 v - 1`: the quickest form to evaluate. On `[-1, 1]` it loses no
-/// digits against the Bernstein form: its coefficients are no larger than the control points.
+/// digits against the Bernstein form: its coefficients are at most 2.25 times the largest control point.
 #[derive(Clone, Debug)]
 pub(super) struct PowerForm {
     /// `coefficients[i][j]`, three coordinates and a zero, belongs to `x^i y^j`.

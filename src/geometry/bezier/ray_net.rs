@@ -5,7 +5,13 @@ use super::row::{Range, Row, Rows};
 use super::row_net::RowNet;
 use super::unit::UnitRay;
 use crate::math::Frame;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+
+/// Rounding of coordinates in unit space is below this.
+pub(super) const ROUNDING: f64 = 1e-14;
+
+/// Roots this far outside of a part still count, in units of the part.
+const SLACK: f64 = 1e-9;
 
 /// The control points of a part of a patch along and across a ray: z along its direction, x = y = 0 on the ray.
 #[derive(Clone, Copy)]
@@ -97,13 +103,16 @@ impl RayNet {
         let (du, dv) = (du / determinant, dv / determinant);
         let x = combine(dv.y, &self.0.x, -dv.x, &self.0.y);
         let y = combine(-du.y, &self.0.x, du.x, &self.0.y);
+        // Rounding of the coordinates, in these ones: all that counts where a part is so small or so thin that it is a point or
+        // a line to the ray.
+        let slack = |row: DVec2| SLACK + ROUNDING * (row.x.abs() + row.y.abs());
         // 1.5 times the step between control points: three steps for parameters from -1 to 1.
         let derivative = |rows: &Rows| Range::of(&rows.steps()).scaled(1.5);
         let (xt, yt) = (x.transposed(), y.transposed());
         let norm_x = derivative(&x).less(1.0).greatest() + derivative(&xt).greatest();
         let norm_y = derivative(&y).greatest() + derivative(&yt).less(1.0).greatest();
         Some(Affine {
-            is_missed: x.range().excludes_zero(1e-9) || y.range().excludes_zero(1e-9),
+            is_missed: x.range().excludes_zero(slack(dv)) || y.range().excludes_zero(slack(du)),
             nonlinearity: norm_x.max(norm_y),
             start: [-x.middle(), -y.middle()],
         })

@@ -2,7 +2,7 @@
 //! holds at most one root for certain.
 
 use super::newton::{Domain, Knowledge, Outcome, Root, solve};
-use super::ray_net::RayNet;
+use super::ray_net::{ROUNDING, RayNet};
 use super::traverse::Walk;
 #[cfg(target_arch = "x86_64")]
 use crate::math::lanes::Avx2;
@@ -13,9 +13,6 @@ use multiversion::multiversion;
 /// A piece within a box of this size around the ray is a hit even where no single root can be told apart: at a point
 /// where the ray touches the surface. In unit space.
 const TOUCHING: f64 = 1e-9;
-
-/// Rounding of coordinates in unit space is below this.
-const ROUNDING: f64 = 1e-14;
 
 /// Halvings after which what is left is a miss.
 const MAX_DEPTH: usize = 80;

@@ -1,20 +1,20 @@
 //! Eight rays that go nearly the same way, as those of a camera do: down the tree of parts together, with a ray in each
 //! lane. Each finds what it would find alone.
 
+use super::lineup::EightRays;
 use super::newton::Domain;
 use super::node::Node;
-use super::packet::{Candidates, OnePart, PacketRay, upper_end};
+use super::packet::{Candidates, PacketRay, upper_end};
 use super::paraboloid::MARGIN;
 use super::patch::Prepared;
 use super::power::PowerForm;
 use super::search::subdivide;
-use super::traverse::{Hit, STACK_SIZE, Walk, bits};
-use super::tree::{Link, Target};
+use super::traverse::{Hit, Stack, Walk, bits, insert};
+use super::tree::Target;
 use super::unit::UnitRay;
 #[cfg(target_arch = "x86_64")]
 use crate::math::lanes::Avx2;
 use crate::math::lanes::{LANES, Lanes, Portable};
-use arrayvec::ArrayVec;
 use multiversion::multiversion;
 use std::array::from_fn;
 
@@ -57,7 +57,7 @@ impl<'a, L: Lanes> Together<'a, L> {
 
     #[inline(always)]
     fn run(mut self, l: L) -> [Option<Hit>; LANES] {
-        let mut stack: ArrayVec<(f32, Link), STACK_SIZE> = ArrayVec::new();
+        let mut stack = Stack::new();
         stack.push((f32::NEG_INFINITY, self.patch.tree.root()));
         while let Some((near, link)) = stack.pop() {
             if near > self.farthest {
@@ -67,7 +67,7 @@ impl<'a, L: Lanes> Together<'a, L> {
                 Target::Node(node) => self.push_farthest_first(l, node, &mut stack),
                 Target::Packet(packet) => {
                     for part in 0..packet.count() {
-                        let candidates = packet.test(l, OnePart(part), &self.rays);
+                        let candidates = packet.test(l, EightRays(part), &self.rays);
                         if candidates.branches | candidates.unknown != 0 {
                             self.visit_part(l, packet.domain(part), &candidates);
                         }
@@ -110,20 +110,15 @@ impl<'a, L: Lanes> Together<'a, L> {
 
     /// Pushes the children that any ray meets, the nearest on top.
     #[inline(always)]
-    fn push_farthest_first(&self, l: L, node: &Node, stack: &mut ArrayVec<(f32, Link), STACK_SIZE>) {
+    fn push_farthest_first(&self, l: L, node: &Node, stack: &mut Stack) {
         let bottom = stack.len();
         for k in 0..node.count() {
-            let (lanes, near) = node.test_one(l, k, &self.rays);
+            let (lanes, near) = node.test(l, EightRays(k), &self.rays);
             if lanes == 0 {
                 continue;
             }
             let nearest = bits(lanes).fold(f32::INFINITY, |nearest, lane| nearest.min(near[lane]));
-            stack.push((nearest, node.child(k)));
-            let mut place = stack.len() - 1;
-            while place > bottom && stack[place - 1].0 < stack[place].0 {
-                stack.swap(place - 1, place);
-                place -= 1;
-            }
+            insert(stack, bottom, (nearest, node.child(k)));
         }
     }
 }

@@ -1,7 +1,8 @@
 //! From a ray to its nearest hit: down the tree of parts, nearest first.
 
+use super::lineup::OneRay;
 use super::newton::{Domain, Knowledge, Outcome, Root, solve};
-use super::packet::{AllParts, Branch, Candidates, Packet, PacketRay, upper_end};
+use super::packet::{Branch, Candidates, Packet, PacketRay, upper_end};
 use super::paraboloid::MARGIN;
 use super::patch::Prepared;
 use super::search::subdivide;
@@ -21,7 +22,7 @@ pub(super) struct Hit {
 }
 
 /// A tree of at most 12 halvings has 12 levels of nodes at most, each of which leaves 7 siblings behind.
-pub(super) const STACK_SIZE: usize = 88;
+const STACK_SIZE: usize = 88;
 
 /// Pieces looked at by subdivision before it gives up on a ray that runs within the surface; rays that merely graze it
 /// need a few dozen.
@@ -45,7 +46,7 @@ impl<'a> Walk<'a> {
     #[inline(always)]
     pub(super) fn run<L: Lanes, const ANY: bool>(mut self, l: L) -> Option<Hit> {
         let mut ray = PacketRay::new(l, &self.ray);
-        let mut stack: ArrayVec<(f32, Link), STACK_SIZE> = ArrayVec::new();
+        let mut stack = Stack::new();
         stack.push((f32::NEG_INFINITY, self.patch.tree.root()));
         while let Some((near, link)) = stack.pop() {
             if near > upper_end(&self.ray) {
@@ -53,11 +54,14 @@ impl<'a> Walk<'a> {
             }
             match self.patch.tree.follow(link) {
                 Target::Node(node) => {
-                    let (mask, near) = node.test(l, &ray);
-                    push_farthest_first(&mut stack, mask, |k| (near[k], node.child(k)));
+                    let (mask, near) = node.test(l, OneRay, &ray);
+                    let bottom = stack.len();
+                    for k in bits(mask) {
+                        insert(&mut stack, bottom, (near[k], node.child(k)));
+                    }
                 }
                 Target::Packet(packet) => {
-                    self.visit_packet(l, packet, &packet.test(l, AllParts, &ray));
+                    self.visit_packet(l, packet, &packet.test(l, OneRay, &ray));
                     if ANY && self.best.is_some() {
                         return self.best;
                     }
@@ -125,17 +129,17 @@ pub(super) fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Pushes what the mask names, in the order in which it is to be left for later: the nearest on top.
+/// What is left to visit, with where the ray enters it, the nearest on top.
+pub(super) type Stack = ArrayVec<(f32, Link), STACK_SIZE>;
+
+/// Pushes an entry below those above `bottom` that are nearer.
 #[inline(always)]
-fn push_farthest_first(stack: &mut ArrayVec<(f32, Link), STACK_SIZE>, mask: u32, child: impl Fn(usize) -> (f32, Link)) {
-    let bottom = stack.len();
-    for k in bits(mask) {
-        stack.push(child(k));
-        let mut place = stack.len() - 1;
-        while place > bottom && stack[place - 1].0 < stack[place].0 {
-            stack.swap(place - 1, place);
-            place -= 1;
-        }
+pub(super) fn insert(stack: &mut Stack, bottom: usize, entry: (f32, Link)) {
+    stack.push(entry);
+    let mut place = stack.len() - 1;
+    while place > bottom && stack[place - 1].0 < stack[place].0 {
+        stack.swap(place - 1, place);
+        place -= 1;
     }
 }
 
