@@ -1,6 +1,6 @@
 use super::bezier::{Patch, PatchHit};
 use super::{Bvh, Plane, Quad, Sphere};
-use crate::math::lanes::LANES;
+use crate::math::lanes::{LANES, set_bits};
 use crate::math::{Aabb, Ray};
 use glam::{DVec2, DVec3};
 use multiversion::multiversion;
@@ -225,7 +225,7 @@ fn closest_hits(aggregate: &Aggregate, rays: &[Ray; LANES]) -> [Option<Hit>; LAN
                 }
             }
         } else {
-            for lane in (0..LANES).filter(|lane| met >> lane & 1 != 0) {
+            for lane in set_bits(met) {
                 aggregate.meet(primitive, &mut rays[lane], &mut closest[lane]);
             }
         }

@@ -104,7 +104,7 @@ impl Bvh {
         }
         while let Some((near, child, mut met)) = stack.pop() {
             for (lane, ray) in rays.iter().enumerate() {
-                // Where a ray ends before the nearest of them enters, so it does where it enters.
+                // `near` is where the first of the rays enters: no later than this one does.
                 met &= !(u32::from(near > ray.t_max) << lane);
             }
             if met == 0 {

@@ -80,6 +80,16 @@ pub trait Lanes: Copy {
     }
 }
 
+/// The places of the bits that are set, in rising order.
+#[inline(always)]
+pub fn set_bits(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = (mask != 0).then(|| mask.trailing_zeros() as usize);
+        mask &= mask.wrapping_sub(1);
+        bit
+    })
+}
+
 /// What the target always has.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable;
@@ -270,6 +280,12 @@ mod tests {
         assert_eq!(l.bits(l.in_range(&[0, 5, 6, 7, 8, u32::MAX, 4, 1 << 31], 5, 3)), 0b0000_1110);
         assert_eq!(l.sum(a), 16.5);
         assert_eq!(l.store(l.dot([a, a, a], [b, b, l.splat(1.0)])), by_lane(|x, y| 2.0 * x * y + x));
+    }
+
+    #[test]
+    fn set_bits_come_in_rising_order() {
+        assert_eq!(set_bits(0b1000_0000_0000_0000_0000_0000_0001_0010).collect::<Vec<_>>(), [1, 4, 31]);
+        assert_eq!(set_bits(0).count(), 0);
     }
 
     #[test]

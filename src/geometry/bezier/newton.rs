@@ -6,10 +6,12 @@ use crate::math::lanes::Lanes;
 use glam::DVec3;
 
 /// Roots this far outside of a part, in x and y, still count: neighbouring parts and patches overlap by far more than
-/// rounding, hence no ray slips between them, and by far less than anyone can see.
+/// rounding, hence no ray slips between them, and by far less than anyone can see. Where a derivative vanishes, that is no
+/// overlap in space; there subdivision decides, with a slack of its own.
 const SLACK: f64 = 1e-9;
 
-/// Steps, relative to the part, below which the next one is lost in rounding: the error is the square of the last step.
+/// Steps, relative to the part, after which no further one is made: the next would be this step squared, times what parts
+/// bend, some 1e-12 of the patch.
 const LAST_STEP: f64 = 1e-5;
 
 /// Steps after which subdivision is the better way. From within a nearly flat part three suffice.

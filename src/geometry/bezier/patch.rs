@@ -6,7 +6,7 @@ use super::together::nearest_hits;
 use super::traverse::{Hit, has_hit, nearest_hit};
 use super::tree::PartTree;
 use super::unit::{UnitMap, UnitRay};
-use crate::math::lanes::LANES;
+use crate::math::lanes::{LANES, set_bits};
 use crate::math::{Aabb, Ray};
 use glam::DVec3;
 
@@ -78,7 +78,7 @@ impl Patch {
     /// go nearly the same way.
     pub fn intersect_together(&self, rays: &[Ray; LANES], counting: u32) -> [Option<PatchHit>; LANES] {
         let mut unit_rays = [UnitRay::NONE; LANES];
-        for k in (0..LANES).filter(|k| counting >> k & 1 != 0) {
+        for k in set_bits(counting) {
             unit_rays[k] = self.unit_map.ray(&rays[k]).unwrap_or(UnitRay::NONE);
         }
         nearest_hits(&self.prepared, &unit_rays).map(|hit| hit.map(PatchHit::from))

@@ -103,8 +103,7 @@ impl RayNet {
         let (du, dv) = (du / determinant, dv / determinant);
         let x = combine(dv.y, &self.0.x, -dv.x, &self.0.y);
         let y = combine(-du.y, &self.0.x, du.x, &self.0.y);
-        // Rounding of the coordinates, in these ones: all that counts where a part is so small or so thin that it is a point or
-        // a line to the ray.
+        // Where a derivative vanishes, parts get so small or so thin that rounding is not small against them.
         let slack = |row: DVec2| SLACK + ROUNDING * (row.x.abs() + row.y.abs());
         // 1.5 times the step between control points: three steps for parameters from -1 to 1.
         let derivative = |rows: &Rows| Range::of(&rows.steps()).scaled(1.5);

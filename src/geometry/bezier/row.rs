@@ -4,7 +4,7 @@ use crate::math::lanes::Lanes;
 use std::ops::{Add, Mul, Sub};
 use wide::f64x4;
 
-/// Four numbers, which compilers turn into vector instructions of any width.
+/// Four numbers.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(super) struct Row(pub(super) [f64; 4]);

@@ -9,12 +9,12 @@ use super::paraboloid::MARGIN;
 use super::patch::Prepared;
 use super::power::PowerForm;
 use super::search::subdivide;
-use super::traverse::{Hit, Stack, Walk, bits, insert};
+use super::traverse::{Hit, Stack, Walk, insert};
 use super::tree::Target;
 use super::unit::UnitRay;
 #[cfg(target_arch = "x86_64")]
 use crate::math::lanes::Avx2;
-use crate::math::lanes::{LANES, Lanes, Portable};
+use crate::math::lanes::{LANES, Lanes, Portable, set_bits};
 use multiversion::multiversion;
 use std::array::from_fn;
 
@@ -88,11 +88,11 @@ impl<'a, L: Lanes> Together<'a, L> {
                 continue;
             }
             let (x, y) = refined(l, &self.patch.power, &self.rays, &domain.0, candidates, first / LANES);
-            for k in bits(lanes) {
+            for k in set_bits(lanes) {
                 self.walks[k].follow(l, domain, &candidates.branch(first + k), (f64::from(x[k]), f64::from(y[k])));
             }
         }
-        for k in bits(candidates.unknown) {
+        for k in set_bits(candidates.unknown) {
             subdivide(&mut self.walks[k], &domain.0);
         }
     }
@@ -117,13 +117,13 @@ impl<'a, L: Lanes> Together<'a, L> {
             if lanes == 0 {
                 continue;
             }
-            let nearest = bits(lanes).fold(f32::INFINITY, |nearest, lane| nearest.min(near[lane]));
+            let nearest = set_bits(lanes).fold(f32::INFINITY, |nearest, lane| nearest.min(near[lane]));
             insert(stack, bottom, (nearest, node.child(k)));
         }
     }
 }
 
-/// The starts of a branch after a Newton step in single precision for all rays at once; in x and y.
+/// The starts of a branch, in x and y, after Newton steps in single precision for all rays at once.
 #[inline(always)]
 fn refined<L: Lanes>(
     l: L,

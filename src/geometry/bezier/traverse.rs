@@ -10,7 +10,7 @@ use super::tree::{Link, Target};
 use super::unit::UnitRay;
 #[cfg(target_arch = "x86_64")]
 use crate::math::lanes::Avx2;
-use crate::math::lanes::{LANES, Lanes, Portable};
+use crate::math::lanes::{LANES, Lanes, Portable, set_bits};
 use arrayvec::ArrayVec;
 use multiversion::multiversion;
 
@@ -56,7 +56,7 @@ impl<'a> Walk<'a> {
                 Target::Node(node) => {
                     let (mask, near) = node.test(l, OneRay, &ray);
                     let bottom = stack.len();
-                    for k in bits(mask) {
+                    for k in set_bits(mask) {
                         insert(&mut stack, bottom, (near[k], node.child(k)));
                     }
                 }
@@ -75,14 +75,14 @@ impl<'a> Walk<'a> {
     /// Looks for roots where the paraboloids of a packet leave any.
     #[inline(always)]
     fn visit_packet(&mut self, l: impl Lanes, packet: &Packet, candidates: &Candidates) {
-        for bit in bits(candidates.branches) {
+        for bit in set_bits(candidates.branches) {
             let branch = candidates.branch(bit);
             let (part, enlarged) = packet.domain(bit % LANES);
             let (alpha, beta) = branch.start;
             let start = (part.x + alpha * MARGIN * part.half_x, part.y + beta * MARGIN * part.half_y);
             self.follow(l, (part, enlarged), &branch, start);
         }
-        for k in bits(candidates.unknown) {
+        for k in set_bits(candidates.unknown) {
             subdivide(self, &packet.domain(k).0);
         }
     }
@@ -117,16 +117,6 @@ impl<'a> Walk<'a> {
             self.ray.z_max = root.z;
         }
     }
-}
-
-/// The places of the bits that are set, in rising order.
-#[inline(always)]
-pub(super) fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let bit = (mask != 0).then(|| mask.trailing_zeros() as usize);
-        mask &= mask.wrapping_sub(1);
-        bit
-    })
 }
 
 /// What is left to visit, with where the ray enters it, the nearest on top.

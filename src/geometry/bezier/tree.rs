@@ -11,7 +11,8 @@ use arrayvec::ArrayVec;
 use glam::DVec3;
 use std::collections::BinaryHeap;
 
-/// Limit of the number of parts, for the sake of memory and of build time: 64 KiB hold no more.
+/// Limit of the number of parts, for the sake of memory, of which a patch shall not take more than 64 KiB, and of build
+/// time.
 const MAX_PARTS: usize = 256;
 
 /// Halvings after which a part that does not get flatter (a cusp, a collapsed edge) is left to subdivision.
