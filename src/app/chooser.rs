@@ -2,7 +2,7 @@
 
 use crossbeam_channel::{Receiver, TryRecvError, bounded};
 use egui::Context;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -19,6 +19,7 @@ pub(crate) enum Purpose {
     SaveScene,
     ExportPicture,
     ExportSurface,
+    AddSurface,
     AddTexture,
 }
 
@@ -63,8 +64,16 @@ impl Purpose {
             Self::SaveScene => "Save scene",
             Self::ExportPicture => "Export picture",
             Self::ExportSurface => "Export surface",
+            Self::AddSurface => "Add patches",
             Self::AddTexture => "Add texture",
         }
+    }
+
+    /// What a file is for that was dropped onto the window: by its extension, and a scene where that says nothing.
+    pub(crate) fn of_dropped(path: &Path) -> Self {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        let takes = |purpose: &Self| purpose.extensions().iter().any(|known| extension.as_deref() == Some(known));
+        [Self::AddSurface, Self::AddTexture].into_iter().find(takes).unwrap_or(Self::OpenScene)
     }
 
     /// Whether the file will be written.
@@ -78,6 +87,7 @@ impl Purpose {
             Self::OpenScene | Self::SaveScene => &["toml"],
             Self::ExportPicture => &["png", "exr"],
             Self::ExportSurface => &["obj", "bpt"],
+            Self::AddSurface => &["bpt"],
             Self::AddTexture => &["png", "jpg", "jpeg"],
         }
     }
@@ -88,6 +98,7 @@ impl Purpose {
             Self::OpenScene | Self::SaveScene => ".toml, a scene",
             Self::ExportPicture => ".png, as the screen shows it, or .exr, linear 32-bit floats",
             Self::ExportSurface => ".obj, a mesh, or .bpt, the control points",
+            Self::AddSurface => ".bpt, control points of bicubic patches",
             Self::AddTexture => ".png or .jpg, an image",
         }
     }

@@ -1,6 +1,7 @@
 //! Everything that panels, canvas, menus and keys ask for. [`Editor::apply`](super::editor::Editor) alone does it.
 
 use super::action::Action;
+use super::chooser::Purpose;
 use super::edit::Edit;
 use super::selection::Selection;
 use egui::ThemePreference;
@@ -16,8 +17,10 @@ pub(crate) enum AppCommand {
     Edit(Edit),
     /// Talk about something else.
     Select(Selection),
-    /// Choose an image file for a new texture.
-    AddTexture,
+    /// Choose a file to add something from.
+    AddFrom(Purpose),
+    /// A file was dropped onto the window.
+    Drop(PathBuf),
     /// Give up the drag that goes on.
     CancelDrag,
     /// Go on to something for which the present scene is given up; asks where there is something to lose.

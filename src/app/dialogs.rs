@@ -145,8 +145,7 @@ fn content_height(ui: &Ui) -> f32 {
     (ui.ctx().content_rect().height() - 120.0).max(60.0)
 }
 
-/// Opens the scene file that was dropped onto the window.
-pub(crate) fn dropped_files(ctx: &Context) -> Option<AppCommand> {
-    let dropped = ctx.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_path_buf()));
-    dropped.map(|path| AppCommand::GoTo(Next::Open(path)))
+/// The files that were dropped onto the window.
+pub(crate) fn dropped_files(ctx: &Context) -> Vec<AppCommand> {
+    ctx.input(|input| input.raw.dropped_files.iter().map(|file| AppCommand::Drop(file.path().to_path_buf())).collect())
 }

@@ -90,12 +90,16 @@ impl Editor {
         }
     }
 
-    fn carry_out(&mut self, ctx: &Context, purpose: Purpose, path: PathBuf) {
+    pub(crate) fn carry_out(&mut self, ctx: &Context, purpose: Purpose, path: PathBuf) {
         match purpose {
             Purpose::OpenScene => self.apply(ctx, super::command::AppCommand::GoTo(super::command::Next::Open(path))),
             Purpose::SaveScene => self.save(ctx, path),
             Purpose::ExportPicture => self.start_export(path),
             Purpose::ExportSurface => self.export_surface(ctx, path),
+            Purpose::AddSurface => match new_items::surface(self.document.scene(), &path) {
+                Ok(object) => self.edit(Edit::AddObject(object)),
+                Err(error) => self.dialog = Some(Dialog::error("The patches cannot be added".to_owned(), error)),
+            },
             Purpose::AddTexture => {
                 let texture = new_items::texture(self.document.scene(), &path);
                 self.edit(Edit::AddTexture(texture));

@@ -5,7 +5,8 @@ use super::selection::Item;
 use crate::geometry::bezier::ControlNet;
 use crate::math::Rgb;
 use crate::scene::{
-    Bezier, Color, Emitter, Encoding, Light, Material, MaterialModel, Object, Scene, Shape, Texture, Transform,
+    Bezier, Color, Emitter, Encoding, Light, Location, Material, MaterialModel, Object, Scene, Shape, Texture,
+    Transform,
 };
 use glam::DVec3;
 use std::array;
@@ -50,9 +51,9 @@ pub(crate) fn models() -> [(&'static str, MaterialModel); 5] {
 }
 
 /// A new object with a name of its own.
-pub(crate) fn object(scene: &Scene, kind: &str, shape: Make<Shape>) -> Object {
+pub(crate) fn object(scene: &Scene, name: &str, shape: Shape) -> Object {
     let material = scene.materials.first().map_or(String::new(), |material| material.name.clone());
-    Object { name: object_name(scene, kind), material, shape: shape(scene) }
+    Object { name: object_name(scene, name), material, shape }
 }
 
 /// A new light with a name of its own.
@@ -66,12 +67,28 @@ pub(crate) fn material(scene: &Scene, kind: &str, model: MaterialModel) -> Mater
 }
 
 /// A new texture from an image file, with a name of its own.
-pub(crate) fn texture(scene: &Scene, file: &Path) -> Texture {
-    let stem = file.file_stem().map_or_else(|| "texture".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let name = free_name(&stem, |name| scene.textures.iter().any(|texture| texture.name == name));
-    // Absolute until the scene is saved, which writes it relative to the scene's file.
-    let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    Texture { name, file: file.display().to_string(), encoding: Encoding::Srgb }
+pub(crate) fn texture(scene: &Scene, path: &Path) -> Texture {
+    let name = free_name(&stem(path, "texture"), |name| scene.textures.iter().any(|texture| texture.name == name));
+    Texture { name, file: absolute(path), encoding: Encoding::Srgb }
+}
+
+/// A new object of the patches in a `.bpt` file, where their coordinates say, with a name of its own; or why the file
+/// cannot be read.
+pub(crate) fn surface(scene: &Scene, path: &Path) -> Result<Object, String> {
+    let file = absolute(path);
+    let patches = Arc::new(Location::Unsaved.read_patches(&file)?);
+    let bezier = Bezier { transform: Transform::default(), patches, file: Some(file) };
+    Ok(object(scene, &stem(path, "patches"), Shape::Bezier(bezier)))
+}
+
+/// The file's name without its extension.
+fn stem(path: &Path, otherwise: &str) -> String {
+    path.file_stem().map_or_else(|| otherwise.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Absolute until the scene is saved, which writes it relative to the scene's file.
+fn absolute(path: &Path) -> String {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).display().to_string()
 }
 
 /// The edit that adds a copy of an item, moved a little so that it can be seen.

@@ -62,7 +62,7 @@ impl PathField {
                 _ if replaces => "Replace",
                 Purpose::ExportPicture | Purpose::ExportSurface => "Export",
                 Purpose::SaveScene => "Save",
-                Purpose::OpenScene | Purpose::AddTexture => "Open",
+                Purpose::OpenScene | Purpose::AddSurface | Purpose::AddTexture => "Open",
             };
             let usable = !self.text.trim().is_empty();
             let button = ui.add_enabled(usable, Button::new(verb));

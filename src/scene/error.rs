@@ -20,6 +20,12 @@ pub enum SceneError {
         /// Never empty.
         problems: Vec<LocatedProblem>,
     },
+    /// The file holds control points, which are a part of a scene only.
+    #[error("{}: holds control points, not a scene; an object of type \"bezier\" takes them with `file = ...`", file.display())]
+    ControlPoints {
+        /// The `.bpt` file.
+        file: PathBuf,
+    },
     /// No built-in scene has this name, and no file.
     #[error("{name}: there is no such scene file, and built in are {known}{suggestion}")]
     NoSuchExample {

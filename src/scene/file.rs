@@ -21,6 +21,9 @@ impl SceneFile {
     /// Reads a scene file and checks all of it, and that the files it names are there.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let bytes = fs::read(path).map_err(|source| SceneError::Read { file: path.to_owned(), source })?;
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bpt")) {
+            return Err(SceneError::ControlPoints { file: path.to_owned() });
+        }
         let location = Location::Disk(path.to_owned());
         let text = String::from_utf8(bytes).map_err(|e| no_text(&e, &location))?;
         Self::parse(&text, location)

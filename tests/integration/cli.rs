@@ -139,6 +139,13 @@ fn a_black_scene_ends_by_error_too() {
 }
 
 #[test]
+fn control_points_are_no_scene() {
+    let dir = folder();
+    fs::write(dir.path().join("sheet.bpt"), "0\n").unwrap();
+    fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt: holds control points", "file = "]);
+}
+
+#[test]
 fn check_prints_the_plan() {
     let dir = folder();
     let output = patchlight(dir.path(), &["check", "ball.toml"]);

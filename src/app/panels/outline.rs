@@ -1,6 +1,7 @@
 //! The list of everything in the scene.
 
 use crate::app::action::Action;
+use crate::app::chooser::Purpose;
 use crate::app::command::AppCommand;
 use crate::app::document::Document;
 use crate::app::edit::Edit;
@@ -35,8 +36,11 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
     section_ui(ui, &OBJECTS, objects, document, commands, |ui, commands| {
         for (label, shape) in new_items::shapes() {
             if ui.button(label).clicked() {
-                commands.push(AppCommand::Edit(Edit::AddObject(new_items::object(scene, label, shape))));
+                commands.push(AppCommand::Edit(Edit::AddObject(new_items::object(scene, label, shape(scene)))));
             }
+        }
+        if ui.button("patches from a .bpt file…").clicked() {
+            commands.push(AppCommand::AddFrom(Purpose::AddSurface));
         }
     });
     let lights = scene.lights.iter().map(|light| (light.name.as_str(), emitter_kind(&light.emitter)));
@@ -58,7 +62,7 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
     let textures = scene.textures.iter().map(|texture| (texture.name.as_str(), encoding_kind(texture.encoding)));
     section_ui(ui, &TEXTURES, textures, document, commands, |ui, commands| {
         if ui.button("from a PNG or JPEG file…").clicked() {
-            commands.push(AppCommand::AddTexture);
+            commands.push(AppCommand::AddFrom(Purpose::AddTexture));
         }
     });
 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::app::command::{AppCommand, Next};
 use crate::app::dialogs::Dialog;
-use crate::scene::Location;
+use crate::scene::{Location, Shape};
 use egui::{Key, Modifiers};
 
 fn folder() -> tempfile::TempDir {
@@ -278,6 +278,33 @@ fn a_saved_example_has_its_files_beside_it() {
     press(&mut ui, Key::S);
     wait_until(&mut ui, "the save", |_| path.exists());
     assert_eq!(SceneFile::open(&path).unwrap().scene, *scene(&ui), "it opens again");
+}
+
+fn drop_file(ui: &mut Ui, path: std::path::PathBuf) {
+    let ctx = ui.ctx.clone();
+    ui.state_mut().apply(&ctx, AppCommand::Drop(path));
+    ui.run_steps(2);
+}
+
+#[test]
+fn dropped_control_points_become_an_object_that_is_saved_with_its_file() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    let (bpt, path) = (folder.path().join("pot.bpt"), folder.path().join("mine.toml"));
+    std::fs::copy("scenes/teapot.bpt", &bpt).unwrap();
+    drop_file(&mut ui, bpt);
+    let object = scene(&ui).objects.last().unwrap().clone();
+    assert!(matches!(&object.shape, Shape::Bezier(bezier) if bezier.patches.len() == 32), "{object:?}");
+    assert_eq!(object.name, "pot");
+    answer_dialogs(&mut ui, Some(path.clone()));
+    press(&mut ui, Key::S);
+    wait_until(&mut ui, "the save", |_| path.exists());
+    assert!(std::fs::read_to_string(&path).unwrap().contains("file = \"pot.bpt\""), "the file is named, not copied");
+
+    std::fs::write(folder.path().join("bad.bpt"), "1\n3 2\n").unwrap();
+    let before = scene(&ui).clone();
+    drop_file(&mut ui, folder.path().join("bad.bpt"));
+    assert!(ui.query_by_label_contains("line 2").is_some(), "it says where the fault is");
+    assert_eq!(*scene(&ui), before);
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Patches as a mesh of quads.
 
 use super::{ControlNet, Patch};
-use crate::math::Aabb;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
@@ -20,17 +19,17 @@ pub struct QuadMesh {
     pub faces: Vec<Vec<usize>>,
 }
 
-/// Vertices closer than this, relative to the size of all patches, are one: far more than rounding, far less than any
-/// detail.
+/// Vertices closer than this, relative to the smallest patch, are one: far less than any detail.
 const WELD_DISTANCE: f64 = 1e-7;
+/// The same relative to the largest coordinate: more than rounding.
+const ROUNDING: f64 = 1e-14;
 
 impl QuadMesh {
     /// The mesh with `steps` quads along each side of each patch; `steps` of 0 counts as 1.
     pub fn new(nets: &[ControlNet], steps: usize) -> Self {
         let steps = steps.max(1);
-        let size = nets.iter().fold(Aabb::EMPTY, |bounds, net| bounds.union(&net.bounds())).diagonal();
         let mut mesh = Self::default();
-        let mut weld = Weld { cell: WELD_DISTANCE * size, cells: HashMap::new() };
+        let mut weld = Weld { distance: weld_distance(nets), cells: HashMap::new() };
         for net in nets {
             mesh.add_patch(&Patch::new(*net), steps, &mut weld);
         }
@@ -94,28 +93,36 @@ fn face(corners: [usize; 4]) -> Option<Vec<usize>> {
     (face.len() >= 3).then_some(face)
 }
 
+/// Scene units.
+fn weld_distance(nets: &[ControlNet]) -> f64 {
+    let sizes = nets.iter().map(|net| net.bounds().diagonal()).filter(|size| *size > 0.0);
+    let smallest = sizes.reduce(f64::min).unwrap_or(0.0);
+    let largest =
+        nets.iter().flat_map(|net| net.points.as_flattened()).fold(0.0, |most, p| p.abs().max_element().max(most));
+    (WELD_DISTANCE * smallest).max(ROUNDING * largest)
+}
+
 /// Finds vertices that are already there, by cells of a grid.
 struct Weld {
-    cell: f64,
-    cells: HashMap<[i64; 3], usize>,
+    /// Vertices that are at most this far from each other are one; the cells are twice as wide.
+    distance: f64,
+    cells: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl Weld {
     /// The index of a vertex at p, perhaps a new one.
     fn vertex(&mut self, p: DVec3, positions: &mut Vec<DVec3>) -> usize {
-        // A point within half a cell of p lies in one of the eight cells around the corner nearest to p.
-        let corner = |x: f64| if self.cell > 0.0 { (x / self.cell).round() as i64 } else { 0 };
-        let [x, y, z] = p.to_array().map(corner);
+        let scale = if self.distance > 0.0 { 0.5 / self.distance } else { 0.0 };
+        // What lies within half a cell of p lies in one of the eight cells around the corner nearest to p.
+        let [x, y, z] = p.to_array().map(|x| (x * scale).round() as i64);
         for k in 0..8 {
-            let cell = [x - (k & 1), y - (k >> 1 & 1), z - (k >> 2)];
-            if let Some(&index) = self.cells.get(&cell)
-                && positions[index].distance(p) <= 0.5 * self.cell
-            {
-                return index;
+            let near = self.cells.get(&[x - (k & 1), y - (k >> 1 & 1), z - (k >> 2)]);
+            let same = |index: &&usize| positions[**index].distance(p) <= self.distance;
+            if let Some(index) = near.and_then(|indices| indices.iter().find(same)) {
+                return *index;
             }
         }
-        let floor = |x: f64| if self.cell > 0.0 { (x / self.cell).floor() as i64 } else { 0 };
-        self.cells.insert(p.to_array().map(floor), positions.len());
+        self.cells.entry(p.to_array().map(|x| (x * scale).floor() as i64)).or_default().push(positions.len());
         positions.push(p);
         positions.len() - 1
     }
@@ -147,6 +154,18 @@ mod tests {
         assert_eq!(mesh.faces.len(), 6 * 16);
         // Euler: a closed quad mesh of genus 0 has two more vertices than faces.
         assert_eq!((mesh.positions.len(), mesh.parameters.len(), mesh.normals.len()), (98, 98, 98));
+        assert_closed(&mesh);
+    }
+
+    #[test]
+    fn a_small_body_beside_a_large_one_is_welded_shut_too() {
+        let place = |size: f64, at: f64| cube().into_iter().map(move |net| net.map(|p| size * p + DVec3::splat(at)));
+        let mesh = QuadMesh::new(&place(1e6, -2e6).chain(place(1e-3, 0.0)).collect::<Vec<_>>(), 4);
+        assert_eq!(mesh.positions.len(), 2 * 98);
+        assert_closed(&mesh);
+    }
+
+    fn assert_closed(mesh: &QuadMesh) {
         let mut edges = std::collections::BTreeMap::<(usize, usize), usize>::new();
         for face in &mesh.faces {
             for k in 0..face.len() {

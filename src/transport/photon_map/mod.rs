@@ -7,8 +7,12 @@ mod build;
 
 use super::photon::Photon;
 use super::tilt::Tilt;
+#[cfg(target_arch = "x86_64")]
+use crate::math::lanes::Avx2;
+use crate::math::lanes::Portable;
 use crate::math::{LANES, Lanes, Rgb};
 use glam::Vec3;
+use multiversion::multiversion;
 
 /// Eight values of three coordinates or channels.
 type Columns = [[f32; LANES]; 3];
@@ -120,6 +124,11 @@ impl PhotonMap {
     /// Whether there is no photon.
     pub fn is_empty(&self) -> bool {
         self.len == 0
+    }
+
+    /// For each query the sum of flux times the kernel over the photons of its disc.
+    pub fn sums(&self, queries: &[Query]) -> Vec<Rgb> {
+        sums(self, queries)
     }
 
     /// Sum of flux times the kernel over the photons of the disc.
@@ -244,6 +253,16 @@ impl PhotonMap {
     pub fn memory_bytes(&self) -> usize {
         self.nodes.capacity() * (size_of::<Node>() + size_of::<Moments>()) + self.blocks.capacity() * size_of::<Block>()
     }
+}
+
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn sums(map: &PhotonMap, queries: &[Query]) -> Vec<Rgb> {
+    let mut stack = Stack::new();
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = Avx2::try_new() {
+        return queries.iter().map(|query| map.sum_flux(avx2, query, &mut stack)).collect();
+    }
+    queries.iter().map(|query| map.sum_flux(Portable, query, &mut stack)).collect()
 }
 
 #[inline(always)]

@@ -1,8 +1,5 @@
 use super::build::LEAF_SIZE;
 use super::*;
-#[cfg(target_arch = "x86_64")]
-use crate::math::lanes::Avx2;
-use crate::math::lanes::Portable;
 use crate::math::{Sampler, Stream};
 
 fn photons(count: u64, place: impl Fn(&mut Sampler) -> Vec3) -> Vec<Photon> {

@@ -1,0 +1,223 @@
+//! Quads and spheres four at a time: where there are few, testing all of them takes less time than asking a tree which
+//! ones to test.
+
+use super::quad::{EDGE_TOLERANCE, Quad};
+use super::{Hit, Primitive, Sphere};
+use crate::math::Ray;
+use crate::math::doubles::{DOUBLES, Doubles};
+use glam::DVec3;
+use std::array::from_fn;
+
+/// Shapes in a packet.
+const WIDTH: usize = DOUBLES;
+
+type Column = [f64; WIDTH];
+
+/// Four vectors, coordinate by coordinate.
+type Columns = [Column; 3];
+
+/// Quads and spheres against which every ray is tested.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Packets {
+    quads: Vec<QuadPacket>,
+    spheres: Vec<SpherePacket>,
+}
+
+/// Four quads. Places that are left over hold quads without area, which meet no ray.
+#[derive(Clone, Debug)]
+struct QuadPacket {
+    corner: Columns,
+    normal: Columns,
+    dual_u: Columns,
+    dual_v: Columns,
+    primitives: [u32; WIDTH],
+}
+
+/// Four spheres. Places that are left over hold spheres whose radius is not a number, which meet no ray.
+#[derive(Clone, Debug)]
+struct SpherePacket {
+    center: Columns,
+    radius: Column,
+    primitives: [u32; WIDTH],
+}
+
+/// A ray in every place of vectors.
+struct WideRay<D: Doubles> {
+    origin: [D::Vector; 3],
+    direction: [D::Vector; 3],
+    t_min: D::Vector,
+    t_max: D::Vector,
+}
+
+/// In each place the nearest hit with one of the shapes that have that place in their packets.
+struct Nearest<D: Doubles> {
+    /// The ray's `t_max` where there is none.
+    t: D::Vector,
+    u: D::Vector,
+    v: D::Vector,
+    /// The packet's place among all.
+    packet: D::Vector,
+}
+
+impl Packets {
+    /// The quads and spheres among these primitives.
+    pub(super) fn new<'a>(primitives: impl Iterator<Item = (u32, &'a Primitive)>) -> Self {
+        let (mut quads, mut spheres) = (Vec::new(), Vec::new());
+        for (index, primitive) in primitives {
+            match primitive {
+                Primitive::Quad(quad) => quads.push((index, *quad)),
+                Primitive::Sphere(sphere) => spheres.push((index, *sphere)),
+                Primitive::Plane(_) | Primitive::Patch(_) => {}
+            }
+        }
+        Self {
+            quads: quads.chunks(WIDTH).map(QuadPacket::new).collect(),
+            spheres: spheres.chunks(WIDTH).map(SpherePacket::new).collect(),
+        }
+    }
+
+    /// Shortens the ray to its nearest hit, if there is one.
+    #[inline(always)]
+    pub(super) fn meet<D: Doubles>(&self, d: D, ray: &mut Ray, closest: &mut Option<Hit>) {
+        if self.quads.is_empty() && self.spheres.is_empty() {
+            return;
+        }
+        let wide = WideRay::new(d, ray);
+        let zero = d.splat(0.0);
+        let mut nearest = Nearest { t: wide.t_max, u: zero, v: zero, packet: zero };
+        for (k, packet) in self.quads.iter().enumerate() {
+            packet.meet(d, &wide, k, &mut nearest);
+        }
+        for (k, packet) in (self.quads.len()..).zip(&self.spheres) {
+            packet.meet(d, &wide, k, &mut nearest);
+        }
+        let t = d.store(nearest.t);
+        let lower = |a: usize, b: usize| if t[b] < t[a] { b } else { a };
+        let place = lower(lower(0, 1), lower(2, 3));
+        if t[place] < ray.t_max {
+            ray.t_max = t[place];
+            let packet = d.store(nearest.packet)[place] as usize;
+            let primitives = self.quads.get(packet).map(|packet| &packet.primitives);
+            let primitives = primitives.unwrap_or_else(|| &self.spheres[packet - self.quads.len()].primitives);
+            let (u, v) = (d.store(nearest.u)[place], d.store(nearest.v)[place]);
+            *closest = Some(Hit { t: t[place], primitive: primitives[place], u, v });
+        }
+    }
+
+    /// Whether anything is hit.
+    #[inline(always)]
+    pub(super) fn occlude<D: Doubles>(&self, d: D, ray: &Ray) -> bool {
+        let wide = WideRay::new(d, ray);
+        for packet in &self.quads {
+            if d.any(packet.intersect(d, &wide, wide.t_max)[0]) {
+                return true;
+            }
+        }
+        for packet in &self.spheres {
+            if d.any(packet.intersect(d, &wide, wide.t_max)[0]) {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+impl<D: Doubles> WideRay<D> {
+    #[inline(always)]
+    fn new(d: D, ray: &Ray) -> Self {
+        Self {
+            origin: d.splat3(ray.origin),
+            direction: d.splat3(ray.direction),
+            t_min: d.splat(ray.t_min),
+            t_max: d.splat(ray.t_max),
+        }
+    }
+}
+
+impl<D: Doubles> Nearest<D> {
+    #[inline(always)]
+    fn take(&mut self, d: D, hit: D::Vector, [t, u, v]: [D::Vector; 3], packet: usize) {
+        self.t = d.select(hit, t, self.t);
+        self.u = d.select(hit, u, self.u);
+        self.v = d.select(hit, v, self.v);
+        self.packet = d.select(hit, d.splat(packet as f64), self.packet);
+    }
+}
+
+impl QuadPacket {
+    fn new(quads: &[(u32, Quad)]) -> Self {
+        let empty = (0, Quad::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO));
+        let quads: [_; WIDTH] = from_fn(|k| quads.get(k).copied().unwrap_or(empty));
+        let columns = |of: fn(&Quad) -> DVec3| columns(quads.map(|(_, quad)| of(&quad)));
+        Self {
+            corner: columns(|quad| quad.position(0.0, 0.0)),
+            normal: columns(Quad::normal),
+            dual_u: columns(|quad| quad.duals().0),
+            dual_v: columns(|quad| quad.duals().1),
+            primitives: quads.map(|(index, _)| index),
+        }
+    }
+
+    #[inline(always)]
+    fn meet<D: Doubles>(&self, d: D, ray: &WideRay<D>, index: usize, nearest: &mut Nearest<D>) {
+        let [hit, t, u, v] = self.intersect(d, ray, nearest.t);
+        nearest.take(d, hit, [t, u, v], index);
+    }
+
+    /// Which quads are hit nearer than `t_max`, and t, u and v of the hits; as [`Quad::intersect`].
+    #[inline(always)]
+    fn intersect<D: Doubles>(&self, d: D, ray: &WideRay<D>, t_max: D::Vector) -> [D::Vector; 4] {
+        let normal = d.load3(&self.normal);
+        let from = d.sub3(ray.origin, d.load3(&self.corner));
+        let t = d.sub(d.splat(0.0), d.div(d.dot(normal, from), d.dot(normal, ray.direction)));
+        let p = d.mul_add3(t, ray.direction, from);
+        let (u, v) = (d.dot(p, d.load3(&self.dual_u)), d.dot(p, d.load3(&self.dual_v)));
+        let (low, high) = (d.splat(-EDGE_TOLERANCE), d.splat(1.0 + EDGE_TOLERANCE));
+        let inside_u = d.and(d.less(low, u), d.less(u, high));
+        let inside_v = d.and(d.less(low, v), d.less(v, high));
+        let in_time = d.and(d.less(ray.t_min, t), d.less(t, t_max));
+        [d.and(in_time, d.and(inside_u, inside_v)), t, u, v]
+    }
+}
+
+impl SpherePacket {
+    fn new(spheres: &[(u32, Sphere)]) -> Self {
+        let empty = (0, Sphere { center: DVec3::ZERO, radius: f64::NAN });
+        let spheres: [_; WIDTH] = from_fn(|k| spheres.get(k).copied().unwrap_or(empty));
+        Self {
+            center: columns(spheres.map(|(_, sphere)| sphere.center)),
+            radius: spheres.map(|(_, sphere)| sphere.radius),
+            primitives: spheres.map(|(index, _)| index),
+        }
+    }
+
+    #[inline(always)]
+    fn meet<D: Doubles>(&self, d: D, ray: &WideRay<D>, index: usize, nearest: &mut Nearest<D>) {
+        let [hit, t] = self.intersect(d, ray, nearest.t);
+        nearest.take(d, hit, [t, d.splat(0.0), d.splat(0.0)], index);
+    }
+
+    /// Which spheres are hit nearer than `t_max`, and t of the hits; as [`Sphere::intersect`].
+    #[inline(always)]
+    fn intersect<D: Doubles>(&self, d: D, ray: &WideRay<D>, t_max: D::Vector) -> [D::Vector; 2] {
+        let radius = d.load(&self.radius);
+        let radius_squared = d.mul(radius, radius);
+        let from = d.sub3(ray.origin, d.load3(&self.center));
+        let a = d.dot(ray.direction, ray.direction);
+        let b = d.sub(d.splat(0.0), d.dot(from, ray.direction));
+        let across = d.mul_add3(d.div(b, a), ray.direction, from);
+        let discriminant = d.sub(radius_squared, d.dot(across, across));
+        // The square root of what is negative is not a number, and then nothing that follows is one.
+        let q = d.add(b, d.with_sign(d.sqrt(d.mul(a, discriminant)), b));
+        let (t0, t1) = (d.div(d.sub(d.dot(from, from), radius_squared), q), d.div(q, a));
+        let in_order = d.less(t0, t1);
+        let (near, far) = (d.select(in_order, t0, t1), d.select(in_order, t1, t0));
+        let near_is_ahead = d.less(ray.t_min, near);
+        let t = d.select(near_is_ahead, near, far);
+        [d.and(d.less(ray.t_min, t), d.less(t, t_max)), t]
+    }
+}
+
+fn columns(vectors: [DVec3; WIDTH]) -> Columns {
+    [vectors.map(|p| p.x), vectors.map(|p| p.y), vectors.map(|p| p.z)]
+}
