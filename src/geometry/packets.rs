@@ -30,7 +30,8 @@ struct QuadPacket {
     normal: Columns,
     dual_u: Columns,
     dual_v: Columns,
-    primitives: [u32; WIDTH],
+    /// Their indices, as numbers that can be chosen between like the others.
+    primitive: Column,
 }
 
 /// Four spheres. Places that are left over hold spheres whose radius is not a number, which meet no ray.
@@ -38,13 +39,16 @@ struct QuadPacket {
 struct SpherePacket {
     center: Columns,
     radius: Column,
-    primitives: [u32; WIDTH],
+    /// Their indices, as numbers that can be chosen between like the others.
+    primitive: Column,
 }
 
 /// A ray in every place of vectors.
 struct WideRay<D: Doubles> {
     origin: [D::Vector; 3],
     direction: [D::Vector; 3],
+    length_squared: D::Vector,
+    inverse_length_squared: D::Vector,
     t_min: D::Vector,
     t_max: D::Vector,
 }
@@ -55,8 +59,7 @@ struct Nearest<D: Doubles> {
     t: D::Vector,
     u: D::Vector,
     v: D::Vector,
-    /// The packet's place among all.
-    packet: D::Vector,
+    primitive: D::Vector,
 }
 
 impl Packets {
@@ -84,23 +87,22 @@ impl Packets {
         }
         let wide = WideRay::new(d, ray);
         let zero = d.splat(0.0);
-        let mut nearest = Nearest { t: wide.t_max, u: zero, v: zero, packet: zero };
-        for (k, packet) in self.quads.iter().enumerate() {
-            packet.meet(d, &wide, k, &mut nearest);
+        let mut nearest = Nearest { t: wide.t_max, u: zero, v: zero, primitive: zero };
+        for packet in &self.quads {
+            packet.meet(d, &wide, &mut nearest);
         }
-        for (k, packet) in (self.quads.len()..).zip(&self.spheres) {
-            packet.meet(d, &wide, k, &mut nearest);
+        for packet in &self.spheres {
+            packet.meet(d, &wide, &mut nearest);
         }
         let t = d.store(nearest.t);
-        let lower = |a: usize, b: usize| if t[b] < t[a] { b } else { a };
-        let place = lower(lower(0, 1), lower(2, 3));
+        // Without branches: no processor can tell beforehand which place is nearest.
+        let first = usize::from(t[1] < t[0]);
+        let second = 2 + usize::from(t[3] < t[2]);
+        let place = [first, second][usize::from(t[second] < t[first])];
         if t[place] < ray.t_max {
             ray.t_max = t[place];
-            let packet = d.store(nearest.packet)[place] as usize;
-            let primitives = self.quads.get(packet).map(|packet| &packet.primitives);
-            let primitives = primitives.unwrap_or_else(|| &self.spheres[packet - self.quads.len()].primitives);
-            let (u, v) = (d.store(nearest.u)[place], d.store(nearest.v)[place]);
-            *closest = Some(Hit { t: t[place], primitive: primitives[place], u, v });
+            let primitive = d.store(nearest.primitive)[place] as u32;
+            *closest = Some(Hit { t: t[place], primitive, u: d.store(nearest.u)[place], v: d.store(nearest.v)[place] });
         }
     }
 
@@ -125,9 +127,12 @@ impl Packets {
 impl<D: Doubles> WideRay<D> {
     #[inline(always)]
     fn new(d: D, ray: &Ray) -> Self {
+        let length_squared = ray.direction.length_squared();
         Self {
             origin: d.splat3(ray.origin),
             direction: d.splat3(ray.direction),
+            length_squared: d.splat(length_squared),
+            inverse_length_squared: d.splat(1.0 / length_squared),
             t_min: d.splat(ray.t_min),
             t_max: d.splat(ray.t_max),
         }
@@ -136,11 +141,11 @@ impl<D: Doubles> WideRay<D> {
 
 impl<D: Doubles> Nearest<D> {
     #[inline(always)]
-    fn take(&mut self, d: D, hit: D::Vector, [t, u, v]: [D::Vector; 3], packet: usize) {
+    fn take(&mut self, d: D, hit: D::Vector, [t, u, v]: [D::Vector; 3], primitive: &Column) {
         self.t = d.select(hit, t, self.t);
         self.u = d.select(hit, u, self.u);
         self.v = d.select(hit, v, self.v);
-        self.packet = d.select(hit, d.splat(packet as f64), self.packet);
+        self.primitive = d.select(hit, d.load(primitive), self.primitive);
     }
 }
 
@@ -154,14 +159,14 @@ impl QuadPacket {
             normal: columns(Quad::normal),
             dual_u: columns(|quad| quad.duals().0),
             dual_v: columns(|quad| quad.duals().1),
-            primitives: quads.map(|(index, _)| index),
+            primitive: quads.map(|(index, _)| f64::from(index)),
         }
     }
 
     #[inline(always)]
-    fn meet<D: Doubles>(&self, d: D, ray: &WideRay<D>, index: usize, nearest: &mut Nearest<D>) {
+    fn meet<D: Doubles>(&self, d: D, ray: &WideRay<D>, nearest: &mut Nearest<D>) {
         let [hit, t, u, v] = self.intersect(d, ray, nearest.t);
-        nearest.take(d, hit, [t, u, v], index);
+        nearest.take(d, hit, [t, u, v], &self.primitive);
     }
 
     /// Which quads are hit nearer than `t_max`, and t, u and v of the hits; as [`Quad::intersect`].
@@ -187,14 +192,14 @@ impl SpherePacket {
         Self {
             center: columns(spheres.map(|(_, sphere)| sphere.center)),
             radius: spheres.map(|(_, sphere)| sphere.radius),
-            primitives: spheres.map(|(index, _)| index),
+            primitive: spheres.map(|(index, _)| f64::from(index)),
         }
     }
 
     #[inline(always)]
-    fn meet<D: Doubles>(&self, d: D, ray: &WideRay<D>, index: usize, nearest: &mut Nearest<D>) {
+    fn meet<D: Doubles>(&self, d: D, ray: &WideRay<D>, nearest: &mut Nearest<D>) {
         let [hit, t] = self.intersect(d, ray, nearest.t);
-        nearest.take(d, hit, [t, d.splat(0.0), d.splat(0.0)], index);
+        nearest.take(d, hit, [t, d.splat(0.0), d.splat(0.0)], &self.primitive);
     }
 
     /// Which spheres are hit nearer than `t_max`, and t of the hits; as [`Sphere::intersect`].
@@ -203,13 +208,16 @@ impl SpherePacket {
         let radius = d.load(&self.radius);
         let radius_squared = d.mul(radius, radius);
         let from = d.sub3(ray.origin, d.load3(&self.center));
-        let a = d.dot(ray.direction, ray.direction);
         let b = d.sub(d.splat(0.0), d.dot(from, ray.direction));
-        let across = d.mul_add3(d.div(b, a), ray.direction, from);
+        let across = d.mul_add3(d.mul(b, ray.inverse_length_squared), ray.direction, from);
         let discriminant = d.sub(radius_squared, d.dot(across, across));
+        if !d.any(d.less(d.splat(0.0), discriminant)) {
+            return [d.less(t_max, t_max), t_max];
+        }
         // The square root of what is negative is not a number, and then nothing that follows is one.
-        let q = d.add(b, d.with_sign(d.sqrt(d.mul(a, discriminant)), b));
-        let (t0, t1) = (d.div(d.sub(d.dot(from, from), radius_squared), q), d.div(q, a));
+        let q = d.add(b, d.with_sign(d.sqrt(d.mul(ray.length_squared, discriminant)), b));
+        let t0 = d.div(d.sub(d.dot(from, from), radius_squared), q);
+        let t1 = d.mul(q, ray.inverse_length_squared);
         let in_order = d.less(t0, t1);
         let (near, far) = (d.select(in_order, t0, t1), d.select(in_order, t1, t0));
         let near_is_ahead = d.less(ray.t_min, near);
