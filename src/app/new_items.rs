@@ -86,7 +86,7 @@ fn stem(path: &Path, otherwise: &str) -> String {
     path.file_stem().map_or_else(|| otherwise.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Absolute until the scene is saved, which writes it relative to the scene's file.
+/// Absolute until the scene is saved, which writes a path below its own folder relative to that.
 fn absolute(path: &Path) -> String {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).display().to_string()
 }

@@ -101,10 +101,15 @@ impl SceneFile {
     /// The path that leads from the scene at `path` to the file that `relative` names now. Adds what must be written
     /// to make it so.
     fn moved(&self, relative: &str, path: &Path, carried: &mut Vec<(PathBuf, &'static [u8])>) -> io::Result<String> {
-        if relative.is_empty() || Path::new(relative).is_absolute() {
-            return Ok(relative.to_owned());
-        }
         let folder = folder(path);
+        if relative.is_empty() {
+            return Ok(String::new());
+        }
+        if Path::new(relative).is_absolute() {
+            // What lies beside the scene or below goes with it when the folder is moved.
+            let is_below = std::path::absolute(&folder).is_ok_and(|folder| Path::new(relative).starts_with(folder));
+            return if is_below { relative_to(&folder, Path::new(relative)) } else { Ok(relative.to_owned()) };
+        }
         if let Some(file) = self.location.path_on_disk(relative) {
             let stays = matches!(&self.location, Location::Disk(from) if crate::file::folder(from) == folder);
             return if stays { Ok(relative.to_owned()) } else { relative_to(&folder, &file) };
