@@ -55,6 +55,8 @@ pub struct VisiblePoint {
     pub photon_bounces: u32,
     /// Whether nothing is between it and the camera.
     pub seen_directly: bool,
+    /// Whether the camera sees it directly and photons are gathered nowhere else for its pixel.
+    pub fills_pixel: bool,
 }
 
 /// How far other objects are from a point, scene units, no more than matters for density estimates.
@@ -307,6 +309,7 @@ impl Walk<'_> {
             tag: photon::tag(object, vertex.point.front, 0),
             photon_bounces: (self.world.max_bounces - branch.bounces - 1).min(photon::MAX_TAG_BOUNCES),
             seen_directly: branch.bounces == 0,
+            fills_pixel: branch.bounces == 0 && self.gather_weight == 1.0,
         }
     }
 

@@ -11,6 +11,7 @@ use super::photon::Photon;
 use super::photon_map::{Query, Stack};
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::Plan;
+use super::sharing::Sharing;
 use super::tilt::Tilt;
 use super::visibility_polygon::{Lookout, VisibilityPolygon};
 use crate::geometry::Primitive;
@@ -47,16 +48,31 @@ pub fn gather(
     iteration: u64,
     cancel: Cancel,
 ) -> Option<(Vec<Gathered>, Counters)> {
-    let blocks: Vec<(Vec<Gathered>, Counters)> = points
-        .par_chunks(POINTS_PER_BLOCK)
-        .map(|points| {
-            let mut counters = Counters::default();
-            let gatherer = Gatherer { world, plan, maps, iteration };
-            let gathered = gather_block(&gatherer, points, &mut counters);
-            (!cancel.is_cancelled()).then_some((gathered, counters))
+    let gatherer = Gatherer { world, plan, maps, iteration };
+    let sharing = gatherer.sharing(points);
+    let (irradiances, counters) = in_blocks(sharing.leading.par_chunks(POINTS_PER_BLOCK), cancel, |leading| {
+        irradiance_block(&gatherer, points, leading)
+    })?;
+    let blocks = points.par_chunks(POINTS_PER_BLOCK).zip(sharing.leader.par_chunks(POINTS_PER_BLOCK));
+    let (gathered, mut all_counters) =
+        in_blocks(blocks, cancel, |(points, leader)| gather_block(&gatherer, points, leader, &irradiances))?;
+    all_counters += counters;
+    Some((gathered, all_counters))
+}
+
+/// The results of all blocks in their order.
+fn in_blocks<B: Send, T: Copy + Send>(
+    blocks: impl IndexedParallelIterator<Item = B>,
+    cancel: Cancel,
+    work: impl Fn(B) -> (Vec<T>, Counters) + Sync,
+) -> Option<(Vec<T>, Counters)> {
+    let results: Vec<(Vec<T>, Counters)> = blocks
+        .map(|block| {
+            let result = work(block);
+            (!cancel.is_cancelled()).then_some(result)
         })
         .collect::<Option<_>>()?;
-    Some(super::blocks::concatenate(blocks))
+    Some(super::blocks::concatenate(results))
 }
 
 struct Gatherer<'a> {
@@ -66,42 +82,83 @@ struct Gatherer<'a> {
     iteration: u64,
 }
 
+/// The irradiance of interreflection at those points that gather it for others too.
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn gather_block(gatherer: &Gatherer, points: &[VisiblePoint], counters: &mut Counters) -> Vec<Gathered> {
+fn irradiance_block(gatherer: &Gatherer, points: &[VisiblePoint], leading: &[u32]) -> (Vec<Rgb>, Counters) {
     let mut stack = Stack::new();
+    let counters = Counters { global_gathers: leading.len() as u64, ..Counters::default() };
+    let points = leading.iter().map(|&index| &points[index as usize]);
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = Avx2::try_new() {
-        return points.iter().map(|point| gatherer.at(avx2, point, &mut stack, counters)).collect();
+        return (points.map(|point| gatherer.shared_irradiance(avx2, point, &mut stack)).collect(), counters);
     }
-    points.iter().map(|point| gatherer.at(Portable, point, &mut stack, counters)).collect()
+    (points.map(|point| gatherer.shared_irradiance(Portable, point, &mut stack)).collect(), counters)
+}
+
+/// What is found at some points; where one has a leader, the irradiance of interreflection is the one found there.
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn gather_block(
+    gatherer: &Gatherer,
+    points: &[VisiblePoint],
+    leader: &[Option<u32>],
+    irradiances: &[Rgb],
+) -> (Vec<Gathered>, Counters) {
+    let (mut stack, mut counters) = (Stack::new(), Counters::default());
+    let points = points.iter().zip(leader.iter().map(|place| place.map(|place| irradiances[place as usize])));
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = Avx2::try_new() {
+        let found = points.map(|(point, shared)| gatherer.at(avx2, point, shared, &mut stack, &mut counters)).collect();
+        return (found, counters);
+    }
+    let found = points.map(|(point, shared)| gatherer.at(Portable, point, shared, &mut stack, &mut counters)).collect();
+    (found, counters)
 }
 
 impl Gatherer<'_> {
+    /// Which points gather interreflection for others.
+    fn sharing(&self, points: &[VisiblePoint]) -> Sharing {
+        if self.maps.global.is_empty() {
+            return Sharing::none(points.len());
+        }
+        Sharing::new(self.plan.camera.width, points, self.iteration, |point| self.radius(MapKind::Global, point))
+    }
+
     #[inline(always)]
-    fn at<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack, counters: &mut Counters) -> Gathered {
+    fn shared_irradiance<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
+        let irradiance = self.irradiance(l, MapKind::Global, stack, point, None, self.radius(MapKind::Global, point));
+        if irradiance.is_finite() { irradiance } else { Rgb::ZERO }
+    }
+
+    /// What is found at a point; `shared` is the irradiance of interreflection where it is known.
+    #[inline(always)]
+    fn at<L: Lanes>(
+        &self,
+        l: L,
+        point: &VisiblePoint,
+        shared: Option<Rgb>,
+        stack: &mut Stack,
+        counters: &mut Counters,
+    ) -> Gathered {
         let mut found = Gathered::default();
-        let (plan, maps, footprint) = (self.plan, self.maps, f64::from(point.footprint));
-        let caustics_here = !point.seen_directly || plan.gathers_visible_caustics(self.iteration);
-        let scatters = point.scattering.albedo != Rgb::ZERO;
-        let unshrunk = [
-            (MapKind::Caustic, caustics_here, plan.caustic_radius * footprint),
-            (MapKind::Global, scatters, plan.global_radius_at(footprint, point.clearance)),
-            (MapKind::Focused, scatters, plan.focused_radius * footprint),
-        ];
-        let radii: ArrayVec<(MapKind, f64), 3> = unshrunk
+        let radii: ArrayVec<(MapKind, f64), 3> = MapKind::ALL
             .into_iter()
-            .filter(|(kind, is_wanted, _)| *is_wanted && !maps[*kind].is_empty())
-            .map(|(kind, _, radius)| {
-                (kind, self.limited(point, radius) * plan.shrink_at(kind, point.pixel, self.iteration))
-            })
+            .filter(|kind| self.is_wanted(*kind, point))
+            .map(|kind| (kind, self.radius(kind, point)))
             .collect();
-        let compares = plan.compares_discs(point.pixel, self.iteration);
+        let compares = self.plan.compares_discs(point.pixel, self.iteration);
         let largest = radii.iter().fold(0.0, |largest, (_, radius)| radius.max(largest));
         let view = self.view(point, largest * if compares { WIDER } else { 1.0 }, counters);
         for (kind, radius) in radii {
-            let is_caustic = kind == MapKind::Caustic;
-            *(if is_caustic { &mut counters.caustic_gathers } else { &mut counters.global_gathers }) += 1;
-            let light = self.estimate(l, kind, stack, point, view.as_ref(), radius);
+            let light = match shared {
+                Some(irradiance) if kind == MapKind::Global => {
+                    point.throughput * irradiance * bsdf::eval_diffuse(&point.scattering)
+                }
+                _ => {
+                    let is_caustic = kind == MapKind::Caustic;
+                    *(if is_caustic { &mut counters.caustic_gathers } else { &mut counters.global_gathers }) += 1;
+                    self.estimate(l, kind, stack, point, view.as_ref(), radius)
+                }
+            };
             found.radiance += light;
             if compares {
                 let wider = self.estimate(l, kind, stack, point, view.as_ref(), WIDER * radius);
@@ -114,6 +171,26 @@ impl Gatherer<'_> {
             counters.dropped_samples += 1;
             Gathered::default()
         }
+    }
+
+    /// Whether a point needs what is in a map.
+    fn is_wanted(&self, kind: MapKind, point: &VisiblePoint) -> bool {
+        !self.maps[kind].is_empty()
+            && match kind {
+                MapKind::Caustic => !point.seen_directly || self.plan.gathers_visible_caustics(self.iteration),
+                MapKind::Global | MapKind::Focused => point.scattering.albedo != Rgb::ZERO,
+            }
+    }
+
+    /// The radius of a point's disc, scene units.
+    fn radius(&self, kind: MapKind, point: &VisiblePoint) -> f64 {
+        let (plan, footprint) = (self.plan, f64::from(point.footprint));
+        let unshrunk = match kind {
+            MapKind::Caustic => plan.caustic_radius * footprint,
+            MapKind::Global => plan.global_radius_at(footprint, point.clearance),
+            MapKind::Focused => plan.focused_radius * footprint,
+        };
+        self.limited(point, unshrunk) * plan.shrink_at(kind, point.pixel, self.iteration)
     }
 
     /// What a point sees of its surface within the reach, if an object that stands there hides some of it.
@@ -156,8 +233,8 @@ impl Gatherer<'_> {
         }
     }
 
-    /// The density estimate of reflected radiance: `sum f flux K / integral of K` over the disc on the surface. Light
-    /// in a Phong lobe counts for caustic photons only; the camera's own paths find the rest of it.
+    /// The density estimate of reflected radiance. Light in a Phong lobe counts for caustic photons only; the camera's own
+    /// paths find the rest of it.
     #[inline(always)]
     fn estimate<L: Lanes>(
         &self,
@@ -168,9 +245,73 @@ impl Gatherer<'_> {
         view: Option<&VisibilityPolygon>,
         radius: f64,
     ) -> Rgb {
+        let is_glossy = kind == MapKind::Caustic && matches!(point.scattering.lobe, Lobe::Phong { .. });
+        let reflected = if is_glossy {
+            self.glossy_reflection(l, kind, stack, point, view, radius)
+        } else {
+            self.irradiance(l, kind, stack, point, view, radius) * bsdf::eval_diffuse(&point.scattering)
+        };
+        point.throughput * reflected
+    }
+
+    /// The density estimate of irradiance, W per square scene unit: `sum flux K / integral of K` over the disc on the
+    /// surface.
+    #[inline(always)]
+    fn irradiance<L: Lanes>(
+        &self,
+        l: L,
+        kind: MapKind,
+        stack: &mut Stack,
+        point: &VisiblePoint,
+        view: Option<&VisibilityPolygon>,
+        radius: f64,
+    ) -> Rgb {
+        let Some(Disc { query, tilt, view, integral }) = self.disc(point, view, radius) else { return Rgb::ZERO };
+        let map = &self.maps[kind];
+        let sum = if view.is_some() {
+            let mut sum = Rgb::ZERO;
+            map.for_each(l, &query, &tilt, stack, |weight, photon| {
+                sum += if is_in_view(point, view, &photon) { weight * photon.flux } else { Rgb::ZERO };
+            });
+            sum
+        } else if tilt.bend > 0.0 || point.n_shade != point.n_side {
+            map.sum_tilted_flux(l, &query, &tilt, stack)
+        } else {
+            map.sum_flux(l, &query, stack)
+        };
+        sum / integral as f32
+    }
+
+    /// The density estimate of what a point with a Phong lobe reflects.
+    #[inline(always)]
+    fn glossy_reflection<L: Lanes>(
+        &self,
+        l: L,
+        kind: MapKind,
+        stack: &mut Stack,
+        point: &VisiblePoint,
+        view: Option<&VisibilityPolygon>,
+        radius: f64,
+    ) -> Rgb {
+        let Some(Disc { query, tilt, view, integral }) = self.disc(point, view, radius) else { return Rgb::ZERO };
+        let diffuse = bsdf::eval_diffuse(&point.scattering);
+        let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
+        let mut sum = Rgb::ZERO;
+        self.maps[kind].for_each(l, &query, &tilt, stack, |weight, photon| {
+            if is_in_view(point, view, &photon) {
+                let lobe = bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
+                sum += weight * photon.flux * (diffuse + lobe);
+            }
+        });
+        sum / integral as f32
+    }
+
+    /// The disc of this radius round a point; none on a light's surface.
+    #[inline(always)]
+    fn disc<'v>(&self, point: &VisiblePoint, view: Option<&'v VisibilityPolygon>, radius: f64) -> Option<Disc<'v>> {
         let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
-        let Surface::Object { shared, .. } = self.world.surfaces[point.primitive as usize] else { return Rgb::ZERO };
-        let (map, linear) = (&self.maps[kind], self.plan.corrects_edges());
+        let Surface::Object { shared, .. } = self.world.surfaces[point.primitive as usize] else { return None };
+        let linear = self.plan.corrects_edges();
         let radius = radius.max(1e-6 * self.world.radius);
         let view = view.filter(|view| view.hides_within(radius));
         let (slope, integral) = match view {
@@ -189,34 +330,25 @@ impl Gatherer<'_> {
             tag_start: point.tag,
             tag_span: point.photon_bounces + 1,
         };
-        let diffuse = bsdf::eval_diffuse(&point.scattering);
-        let glossy = kind == MapKind::Caustic && matches!(point.scattering.lobe, Lobe::Phong { .. });
         let limit = MAX_SHADING_FACTOR as f32;
         let tilt = Tilt { normal: point.n_shade, limit, bend: self.bend(primitive, point, radius) };
-        let reflected = if glossy || view.is_some() {
-            let mut sum = Rgb::ZERO;
-            map.for_each(l, &query, &tilt, stack, |weight, photon| {
-                sum += weight * photon.flux * reflected_part(point, view, glossy, &photon);
-            });
-            sum
-        } else if tilt.bend > 0.0 || point.n_shade != point.n_side {
-            map.sum_tilted_flux(l, &query, &tilt, stack) * diffuse
-        } else {
-            map.sum_flux(l, &query, stack) * diffuse
-        };
-        point.throughput * reflected / integral as f32
+        Some(Disc { query, tilt, view, integral })
     }
 }
 
-/// The part of a photon's light that a point reflects, by its Phong lobe too if `glossy`; none if it is not in view.
-fn reflected_part(point: &VisiblePoint, view: Option<&VisibilityPolygon>, glossy: bool, photon: &Photon) -> Rgb {
-    if view.is_some_and(|view| !view.holds((photon.position - point.position).as_dvec3())) {
-        return Rgb::ZERO;
-    }
-    let diffuse = bsdf::eval_diffuse(&point.scattering);
-    let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
-    let lobe = || bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
-    if glossy { diffuse + lobe() } else { diffuse }
+/// Where photons are gathered for a point, and how they count.
+struct Disc<'v> {
+    query: Query,
+    tilt: Tilt,
+    /// Where something stands on the disc.
+    view: Option<&'v VisibilityPolygon>,
+    /// Of the kernel over the part of the disc that the surface fills and the point sees.
+    integral: f64,
+}
+
+/// Whether nothing stands between a point and a photon.
+fn is_in_view(point: &VisiblePoint, view: Option<&VisibilityPolygon>, photon: &Photon) -> bool {
+    view.is_none_or(|view| view.holds((photon.position - point.position).as_dvec3()))
 }
 
 /// The kernel's slope in space and its integral over the part of the disc that the surface fills: without it, edges

@@ -33,6 +33,7 @@ mod photon_map;
 mod photon_pass;
 mod plan;
 mod schedule;
+mod sharing;
 mod tilt;
 mod visibility_polygon;
 
