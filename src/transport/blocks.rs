@@ -1,7 +1,6 @@
 //! How passes are cut into pieces that threads take: always the same pieces, joined in the same order, so that the
 //! number of threads changes nothing.
 
-use super::counters::Counters;
 use std::ops::Range;
 
 /// Paths of one piece of a photon pass: small enough to be cancelled within a millisecond or two.
@@ -24,13 +23,7 @@ pub(super) fn of_photons(paths_by_light: impl Iterator<Item = Range<u64>>) -> Ve
     paths_by_light.enumerate().flat_map(of_light).collect()
 }
 
-/// The pieces' items in order, and their counters' sum.
-pub(super) fn concatenate<T: Copy>(pieces: Vec<(Vec<T>, Counters)>) -> (Vec<T>, Counters) {
-    let mut all = Vec::with_capacity(pieces.iter().map(|(items, _)| items.len()).sum());
-    let mut counters = Counters::default();
-    for (items, piece_counters) in pieces {
-        all.extend_from_slice(&items);
-        counters += piece_counters;
-    }
-    (all, counters)
+/// What the pieces hold, in their order.
+pub(super) fn join<P, T: Copy>(pieces: &[P], items: impl Fn(&P) -> &Vec<T>) -> Vec<T> {
+    pieces.iter().map(|piece| items(piece).as_slice()).collect::<Vec<_>>().concat()
 }

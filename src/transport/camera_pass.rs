@@ -6,7 +6,7 @@ use super::direct::{self, Vertex};
 use super::medium::Media;
 use super::photon;
 use super::plan::{CAMERA_SAMPLES, Plan};
-use super::{Cancel, Rows};
+use super::{Cancel, Rows, blocks};
 use crate::geometry::{Hit, Primitive};
 use crate::math::{LANES, Ray, Rgb, Sampler, Stream, sobol};
 use crate::world::{Light, Lobe, Scattering, Surface, SurfacePoint, World};
@@ -99,13 +99,11 @@ pub fn camera_pass(
         .into_par_iter()
         .map(|strip| strip_pass(world, plan, strip, seed, iteration, cancel))
         .collect::<Option<_>>()?;
-    let mut all = CameraBatch::default();
-    for batch in batches {
-        all.visible_points.extend_from_slice(&batch.visible_points);
-        all.radiance.extend_from_slice(&batch.radiance);
-        all.counters += batch.counters;
-    }
-    Some(all)
+    Some(CameraBatch {
+        visible_points: blocks::join(&batches, |batch| &batch.visible_points),
+        radiance: blocks::join(&batches, |batch| &batch.radiance),
+        counters: batches.iter().map(|batch| batch.counters).sum(),
+    })
 }
 
 /// Some rows, tile by tile: visible points that follow each other are near each other, and so are their photons.

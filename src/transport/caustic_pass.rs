@@ -63,13 +63,11 @@ pub fn caustic_photon_pass(
             (!cancel.is_cancelled()).then_some(walk.batch)
         })
         .collect::<Option<_>>()?;
-    let mut all = CausticBatch::default();
-    for block in blocks {
-        all.photons.extend_from_slice(&block.photons);
-        all.splats.extend_from_slice(&block.splats);
-        all.counters += block.counters;
-    }
-    Some(all)
+    Some(CausticBatch {
+        photons: blocks::join(&blocks, |block| &block.photons),
+        splats: blocks::join(&blocks, |block| &block.splats),
+        counters: blocks.iter().map(|block| block.counters).sum(),
+    })
 }
 
 struct Walk<'a> {

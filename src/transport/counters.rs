@@ -1,3 +1,4 @@
+use std::iter::Sum;
 use std::ops::AddAssign;
 
 /// What passes did: proof of what was needed and what was skipped.
@@ -25,6 +26,15 @@ pub struct Counters {
     pub texture_lookups: u64,
     /// Contributions that were not finite and were left out.
     pub dropped_samples: u64,
+}
+
+impl Sum for Counters {
+    fn sum<I: Iterator<Item = Self>>(counters: I) -> Self {
+        counters.fold(Self::default(), |mut sum, counters| {
+            sum += counters;
+            sum
+        })
+    }
 }
 
 impl AddAssign for Counters {

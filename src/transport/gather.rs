@@ -66,13 +66,13 @@ fn in_blocks<B: Send, T: Copy + Send>(
     cancel: Cancel,
     work: impl Fn(B) -> (Vec<T>, Counters) + Sync,
 ) -> Option<(Vec<T>, Counters)> {
-    let results: Vec<(Vec<T>, Counters)> = blocks
+    let pieces: Vec<(Vec<T>, Counters)> = blocks
         .map(|block| {
             let result = work(block);
             (!cancel.is_cancelled()).then_some(result)
         })
         .collect::<Option<_>>()?;
-    Some(super::blocks::concatenate(results))
+    Some((super::blocks::join(&pieces, |(items, _)| items), pieces.iter().map(|(_, counters)| *counters).sum()))
 }
 
 struct Gatherer<'a> {

@@ -50,13 +50,11 @@ pub fn global_photon_pass(
             (!cancel.is_cancelled()).then_some(walk.batch)
         })
         .collect::<Option<_>>()?;
-    let mut all = GlobalBatch::default();
-    for block in blocks {
-        all.photons.extend_from_slice(&block.photons);
-        all.focused.extend_from_slice(&block.focused);
-        all.counters += block.counters;
-    }
-    Some(all)
+    Some(GlobalBatch {
+        photons: blocks::join(&blocks, |block| &block.photons),
+        focused: blocks::join(&blocks, |block| &block.focused),
+        counters: blocks.iter().map(|block| block.counters).sum(),
+    })
 }
 
 struct Walk<'a> {

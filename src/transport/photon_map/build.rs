@@ -1,7 +1,7 @@
 //! Sorting the photons by Morton code is the whole construction: every node is a range of the sorted array, split
 //! where the highest differing bit of the codes changes.
 
-use super::{Block, Columns, Moments, Node, PhotonMap};
+use super::{Block, Columns, Moments, Node, PLACE_BITS, PhotonMap};
 use crate::math::{LANES, Rgb};
 use crate::transport::morton::{self, Coded};
 use crate::transport::photon::Photon;
@@ -23,7 +23,8 @@ pub(super) fn build(photons: &[Photon]) -> PhotonMap {
     let trees: Vec<(Child, Tree<'_>)> = parts
         .into_par_iter()
         .map(|part| {
-            let mut tree = Tree { photons, nodes: Vec::new(), moments: Vec::new(), blocks: Vec::new() };
+            let blocks = Vec::with_capacity(part.len() * 3 / 2 / LANES);
+            let mut tree = Tree { photons, nodes: Vec::new(), moments: Vec::new(), blocks };
             (tree.add(part), tree)
         })
         .collect();
@@ -31,8 +32,8 @@ pub(super) fn build(photons: &[Photon]) -> PhotonMap {
     map.nodes.push(Node::EMPTY);
     map.moments.push(Moments::ZERO);
     for (slot, (mut root, tree)) in trees.into_iter().enumerate() {
-        let (nodes, blocks) = (map.nodes.len() as u32, map.blocks.len() as u32);
-        let moved = |first: u32, count: u32| first + if count == 0 { nodes } else { blocks };
+        let (nodes, part) = (map.nodes.len() as u32, (slot as u32) << PLACE_BITS);
+        let moved = |first: u32, count: u32| if count == 0 { first + nodes } else { first | part };
         root.first = moved(root.first, root.blocks);
         map.nodes.extend(tree.nodes.into_iter().map(|mut node| {
             for (first, count) in node.first.iter_mut().zip(node.blocks) {
@@ -41,7 +42,7 @@ pub(super) fn build(photons: &[Photon]) -> PhotonMap {
             node
         }));
         map.moments.extend(tree.moments);
-        map.blocks.extend(tree.blocks);
+        map.blocks.push(tree.blocks);
         root.write(slot, &mut map.nodes[0], &mut map.moments[0]);
     }
     map

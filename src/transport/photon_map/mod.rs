@@ -50,7 +50,7 @@ struct Node {
     max: Columns,
     /// The least and the greatest tag of the photons.
     tags: [[u32; LANES]; 2],
-    /// The first block of a leaf, or an inner node's index.
+    /// An inner node's index, or the first block of a leaf: its part of the map in the highest bits.
     first: [u32; LANES],
     /// Blocks of a leaf; 0 for an inner node.
     blocks: [u32; LANES],
@@ -75,9 +75,13 @@ pub struct PhotonMap {
     nodes: Vec<Node>,
     /// Of the node with the same index.
     moments: Vec<Moments>,
-    blocks: Vec<Block>,
+    /// For each child of the root the blocks below it, which are built apart and not moved again.
+    blocks: Vec<Vec<Block>>,
     len: usize,
 }
+
+/// Bits of a block's place within its part.
+const PLACE_BITS: u32 = u32::BITS - LANES.ilog2();
 
 /// What a density estimate looks for.
 #[derive(Clone, Copy, Debug)]
@@ -241,8 +245,11 @@ impl PhotonMap {
                 if blocks == 0 {
                     stack.push(first);
                 }
-                for photons in &self.blocks[first as usize..][..blocks as usize] {
-                    block(photons, wide.weights(l, query, photons));
+                if blocks > 0 {
+                    let (part, place) = (first >> PLACE_BITS, first & ((1 << PLACE_BITS) - 1));
+                    for photons in &self.blocks[part as usize][place as usize..][..blocks as usize] {
+                        block(photons, wide.weights(l, query, photons));
+                    }
                 }
             }
         }
@@ -251,7 +258,8 @@ impl PhotonMap {
 
     /// Bytes on the heap.
     pub fn memory_bytes(&self) -> usize {
-        self.nodes.capacity() * (size_of::<Node>() + size_of::<Moments>()) + self.blocks.capacity() * size_of::<Block>()
+        self.nodes.capacity() * (size_of::<Node>() + size_of::<Moments>())
+            + self.blocks.iter().map(|part| part.capacity() * size_of::<Block>()).sum::<usize>()
     }
 }
 
