@@ -1,5 +1,6 @@
-use crate::scene::SurfaceExport;
-use clap::{Args, Parser, Subcommand};
+use crate::{scene::SurfaceExport, transport::Component};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use serde::Deserialize;
 use std::{num::NonZeroUsize, path::PathBuf};
 
 /// See what light does with a curved surface.
@@ -41,6 +42,31 @@ pub(super) struct RenderSettings {
     /// Another number gives another noise
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) seed: u64,
+    /// Render this part of the light alone; the three add up to the picture
+    #[arg(long, value_name = "PART")]
+    pub(super) only: Option<Part>,
+}
+
+/// A part of the light, as people write it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Part {
+    /// Lights themselves, and what they light with nothing in between
+    Direct,
+    /// What mirrors and glass throw onto surfaces
+    Caustics,
+    /// What surfaces throw onto each other
+    Interreflection,
+}
+
+impl From<Part> for Component {
+    fn from(part: Part) -> Self {
+        match part {
+            Part::Direct => Self::Direct,
+            Part::Caustics => Self::Caustics,
+            Part::Interreflection => Self::Interreflection,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -93,6 +119,9 @@ pub(super) struct BenchArguments {
     /// Threads that render [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
+    /// Measure this part of the light alone, which is all that the true picture shows
+    #[arg(long, value_name = "PART")]
+    pub(super) only: Option<Part>,
     /// Write the table to this file
     #[arg(long, value_name = "OUT.csv")]
     pub(super) csv: Option<PathBuf>,
@@ -100,8 +129,8 @@ pub(super) struct BenchArguments {
     #[arg(long, value_name = "OUT.png")]
     pub(super) plot: Option<PathBuf>,
     /// Measure all the scenes that this file lists, instead of SCENE: for each a [[run]] with name, scene, seconds and
-    /// perhaps seeds, mask, and reference or reference_seconds
-    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["scene", "reference", "mask", "seconds", "seeds", "csv", "plot"])]
+    /// perhaps seeds, only, mask, and reference or reference_seconds
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["scene", "reference", "mask", "seconds", "seeds", "only", "csv", "plot"])]
     pub(super) suite: Option<PathBuf>,
     /// Where the tables and plots of a suite go
     #[arg(short, long, value_name = "FOLDER")]

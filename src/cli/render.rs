@@ -10,7 +10,7 @@ use crate::{
     engine::{Frame, Session, SessionError},
     film::{ToneMap, write_exr, write_png},
     scene::SceneFile,
-    transport::Cancel,
+    transport::{Cancel, Component},
 };
 use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -39,7 +39,8 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
 }
 
 fn render_frame(file: &SceneFile, arguments: &RenderArguments) -> Result<(Frame, f64), CliError> {
-    let mut session = Session::prepare(file, arguments.settings.seed, None)?;
+    let RenderSettings { seed, only, .. } = arguments.settings;
+    let mut session = Session::prepare(file, seed, None)?.only(only.map(Component::from));
     let progress = Progress::new(arguments.budget);
     let start = ProcessTime::now();
     let mut last = advance(&mut session);

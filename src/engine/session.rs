@@ -3,7 +3,7 @@ use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
 use super::iteration::render_iteration;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Contrasts, Counters, Plan};
+use crate::transport::{Cancel, Component, Contrasts, Counters, Plan};
 use crate::world::{Camera, PrepareError, World, prepare};
 use std::sync::Arc;
 use std::time::Instant;
@@ -69,6 +69,15 @@ impl Session {
         let passes = PassSeconds { prepare: start.elapsed().as_secs_f64(), ..PassSeconds::default() };
         let contrasts = Contrasts::new(plan.camera.width, plan.camera.height);
         Ok(Self { world, plan, summary, seed, film, contrasts, counters: Counters::default(), passes, seconds: 0.0 })
+    }
+
+    /// The same for one component of the light alone, if one is given. To be called before the first iteration.
+    pub fn only(mut self, component: Option<Component>) -> Self {
+        if let Some(component) = component {
+            self.plan = self.plan.only(component);
+            self.summary = Arc::new(PlanSummary { notes: self.plan.notes.clone() });
+        }
+        self
     }
 
     /// What is rendered and what is skipped.

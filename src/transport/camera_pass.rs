@@ -261,12 +261,13 @@ impl Walk<'_> {
     /// At what the branch's ray hits; returns the light that the camera gets from it without photons.
     fn follow(&mut self, mut branch: Branch, hit: Option<Hit>, pixel: u32, sampler: &mut Sampler) -> Rgb {
         let Some(hit) = hit else {
-            return branch.throughput * self.world.background;
+            return if self.plan.finds_direct_light { branch.throughput * self.world.background } else { Rgb::ZERO };
         };
         let point = self.world.surface_point(&branch.ray, hit);
         branch.throughput *= branch.media.transmittance(self.world, hit.t);
         branch.distance += hit.t;
         let (object, material) = match self.world.surfaces[hit.primitive as usize] {
+            Surface::Light(_) if !self.plan.finds_direct_light => return Rgb::ZERO,
             Surface::Light(light) => return emitted(&self.world.lights[light as usize], &branch, &point),
             Surface::Object { object, material, .. } => (object, material),
         };
@@ -280,7 +281,10 @@ impl Walk<'_> {
         let scatters = scattering.albedo != Rgb::ZERO || matches!(scattering.lobe, Lobe::Phong { .. });
         let mut radiance = Rgb::ZERO;
         if scatters {
-            radiance = branch.throughput * direct::direct_light(self.world, &vertex, sampler, &mut self.batch.counters);
+            if self.plan.finds_direct_light {
+                let direct = direct::direct_light(self.world, &vertex, sampler, &mut self.batch.counters);
+                radiance = branch.throughput * direct;
+            }
             if self.gather_weight > 0.0 {
                 self.batch.visible_points.push(self.visible_point(&branch, &vertex, pixel, object));
             }

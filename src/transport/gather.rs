@@ -48,7 +48,7 @@ pub fn gather(
     iteration: u64,
     cancel: Cancel,
 ) -> Option<(Vec<Gathered>, Counters)> {
-    let gatherer = Gatherer { world, plan, maps, iteration };
+    let gatherer = Gatherer { world, plan, maps, iteration, shrink: plan.shrink(iteration) };
     let sharing = gatherer.sharing(points);
     let (irradiances, counters) = in_blocks(sharing.leading.par_chunks(POINTS_PER_BLOCK), cancel, |leading| {
         irradiance_block(&gatherer, points, leading)
@@ -80,6 +80,8 @@ struct Gatherer<'a> {
     plan: &'a Plan,
     maps: &'a Maps,
     iteration: u64,
+    /// The factor of all radii, where none was measured.
+    shrink: f64,
 }
 
 /// The irradiance of interreflection at those points that gather it for others too.
@@ -190,7 +192,7 @@ impl Gatherer<'_> {
             MapKind::Global => plan.global_radius_at(footprint, point.clearance),
             MapKind::Focused => plan.focused_radius * footprint,
         };
-        self.limited(point, unshrunk) * plan.shrink_at(kind, point.pixel, self.iteration)
+        self.limited(point, unshrunk) * plan.measured_shrink(kind, point.pixel).unwrap_or(self.shrink)
     }
 
     /// What a point sees of its surface within the reach, if an object that stands there hides some of it.

@@ -28,6 +28,8 @@ pub struct PlanNote {
 pub struct Plan {
     /// The eye and the film's grid, which is coarser for a draft.
     pub camera: Camera,
+    /// Whether paths from the camera look for emission and direct light.
+    pub finds_direct_light: bool,
     /// Caustics, where light can meet mirrors or glass.
     pub caustics: Option<CausticPlan>,
     /// Paths that look for interreflection in a full iteration, by light; empty where there is none.
@@ -94,6 +96,7 @@ impl Plan {
         notes.background(world);
         Self {
             camera: world.camera,
+            finds_direct_light: true,
             caustics,
             global_paths,
             caustic_radius: 2.0,
@@ -171,7 +174,7 @@ impl Plan {
     }
 
     /// The factor by which radii have shrunk in an iteration as long as nothing was measured.
-    fn shrink(&self, iteration: u64) -> f64 {
+    pub(super) fn shrink(&self, iteration: u64) -> f64 {
         if self.is_draft { 1.0 } else { schedule::shrink(iteration) }
     }
 
@@ -189,9 +192,9 @@ impl Plan {
         pixels * shrink * self.camera.footprint(distance)
     }
 
-    /// The factor by which a map's radius has shrunk in a pixel.
-    pub(super) fn shrink_at(&self, kind: MapKind, pixel: u32, iteration: u64) -> f64 {
-        self.bandwidth.as_ref().map_or_else(|| self.shrink(iteration), |bandwidth| bandwidth.at(kind, pixel))
+    /// The factor by which a map's radius has shrunk in a pixel, if it was measured; else it is [`Plan::shrink`].
+    pub(super) fn measured_shrink(&self, kind: MapKind, pixel: u32) -> Option<f64> {
+        self.bandwidth.as_ref().map(|bandwidth| bandwidth.at(kind, pixel))
     }
 
     /// Whether density estimates at edges are right for light that changes linearly. Not before radii were measured: with

@@ -133,6 +133,6 @@ mod tests {
         assert_eq!(lattice(0b0001).leader(0), None, "before the first column");
         assert_eq!(lattice(0b0100).leader(3), None, "after the last column");
         assert_eq!(lattice(0b0001).leader(4), None);
-        assert_eq!(lattice(0b0101).leader(4), Some(5));
+        assert_eq!(lattice(0b0101).leader(4), Some(1), "in the row before");
     }
 }

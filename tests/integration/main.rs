@@ -5,6 +5,7 @@
 mod bezier;
 mod cli;
 mod closed_forms;
+mod components;
 mod engine;
 mod glass;
 mod indirect_shadow;

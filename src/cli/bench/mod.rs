@@ -20,6 +20,7 @@ use super::{
 use crate::{
     film::{Mask, read_exr},
     scene::SceneFile,
+    transport::Component,
 };
 use std::path::Path;
 use trial::Trial;
@@ -45,7 +46,8 @@ fn bench_scene(scene: &Path, reference: &Path, arguments: &BenchArguments) -> Re
     let file = SceneFile::find(scene)?;
     let reference = read_exr(reference)?;
     let mask = arguments.mask.as_deref().map(Mask::read).transpose()?;
-    let trial = Trial::new(file, Truth::new(reference, mask)?, &arguments.seconds, arguments.seeds);
+    let trial = Trial::new(file, Truth::new(reference, mask)?, &arguments.seconds, arguments.seeds)
+        .only(arguments.only.map(Component::from));
     let rows = pool(arguments.threads)?.install(|| trial.measure())?;
     if let Some(path) = &arguments.csv {
         write(path, csv::csv(&rows).as_bytes())?;

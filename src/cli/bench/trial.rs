@@ -3,6 +3,7 @@ use crate::{
     cli::render::{advance, advance_until},
     engine::Session,
     scene::SceneFile,
+    transport::Component,
 };
 use std::io::{Write, stdout};
 
@@ -13,6 +14,8 @@ pub(super) struct Trial {
     /// Seconds, the earliest first.
     pub(super) marks: Vec<f64>,
     pub(super) seeds: u64,
+    /// The part of the light that is measured; `None`: all of it.
+    pub(super) only: Option<Component>,
 }
 
 impl Trial {
@@ -21,7 +24,12 @@ impl Trial {
         (file.scene.film.width, file.scene.film.height) = truth.size();
         let mut marks = seconds.to_vec();
         marks.sort_by(f64::total_cmp);
-        Self { file, truth, marks, seeds }
+        Self { file, truth, marks, seeds, only: None }
+    }
+
+    /// The same for a part of the light alone.
+    pub(super) fn only(self, only: Option<Component>) -> Self {
+        Self { only, ..self }
     }
 
     /// Measures with each seed, and prints as it goes. To be called inside the thread pool that is to do the work.
@@ -38,7 +46,7 @@ impl Trial {
     /// Renders until the last mark and measures the picture at each of them; at a mark that comes before the first
     /// iteration's end, after that.
     fn measure_seed(&self, seed: u64, rows: &mut Vec<Measurement>) -> Result<(), CliError> {
-        let mut session = Session::prepare(&self.file, seed, None)?;
+        let mut session = Session::prepare(&self.file, seed, None)?.only(self.only);
         let mut last = advance(&mut session);
         for mark in &self.marks {
             last = advance_until(&mut session, last, *mark);

@@ -1,4 +1,4 @@
-use crate::cli::CliError;
+use crate::cli::{CliError, args::Part};
 use serde::Deserialize;
 use std::{
     fs,
@@ -26,6 +26,8 @@ pub(super) struct Entry {
     pub(super) reference: Option<PathBuf>,
     reference_seconds: Option<Seconds>,
     pub(super) mask: Option<PathBuf>,
+    /// The part of the light that is measured; all of it if nobody says.
+    pub(super) only: Option<Part>,
     pub(super) seconds: Marks,
     #[serde(default = "one")]
     pub(super) seeds: NonZeroU64,

@@ -8,6 +8,7 @@ use crate::{
     engine::Session,
     film::{LinearImage, Mask, compare, read_exr},
     scene::SceneFile,
+    transport::Component,
 };
 use std::{
     io::{Write, stdout},
@@ -26,6 +27,7 @@ pub(super) struct Run {
     mask: Option<Mask>,
     marks: Vec<f64>,
     seeds: u64,
+    only: Option<Component>,
 }
 
 enum Reference {
@@ -51,7 +53,8 @@ impl Run {
         };
         compare(truth, truth, mask.as_ref())?;
         let (marks, seeds) = (entry.seconds.0.clone(), entry.seeds.get());
-        Ok(Self { name: name.clone(), file, reference, mask, marks, seeds })
+        let only = entry.only.map(Component::from);
+        Ok(Self { name: name.clone(), file, reference, mask, marks, seeds, only })
     }
 
     /// To be called inside the thread pool that is to do the work.
@@ -60,15 +63,15 @@ impl Run {
             Reference::Given(image) => image,
             Reference::Own(seconds) => {
                 writeln!(stdout(), "rendering a reference for {seconds} s")?;
-                own_reference(&self.file, seconds)?
+                own_reference(&self.file, self.only, seconds)?
             }
         };
-        Trial::new(self.file, Truth::new(reference, self.mask)?, &self.marks, self.seeds).measure()
+        Trial::new(self.file, Truth::new(reference, self.mask)?, &self.marks, self.seeds).only(self.only).measure()
     }
 }
 
-fn own_reference(file: &SceneFile, seconds: f64) -> Result<LinearImage, CliError> {
-    let mut session = Session::prepare(file, REFERENCE_SEED, None)?;
+fn own_reference(file: &SceneFile, only: Option<Component>, seconds: f64) -> Result<LinearImage, CliError> {
+    let mut session = Session::prepare(file, REFERENCE_SEED, None)?.only(only);
     let first = advance(&mut session);
     advance_until(&mut session, first, seconds);
     Ok(Arc::unwrap_or_clone(session.frame(0).image))
