@@ -76,7 +76,7 @@ fn refract(direction: DVec3, side: DVec3, eta: f64) -> Option<DVec3> {
 
 #[test]
 fn no_photon_ends_up_on_the_wrong_side() {
-    let photons = std::env::var("PHOTONS").ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_000);
+    let photons = 10_000_000;
     let body = body();
     let tally = (0..photons)
         .into_par_iter()

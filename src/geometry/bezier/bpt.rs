@@ -48,7 +48,8 @@ pub enum BptProblem {
 ///
 /// Fails on anything but the announced number of bicubic patches with finite coordinates, naming the line.
 pub fn read_bpt(text: &str) -> Result<Vec<ControlNet>, BptError> {
-    let mut words = Words::new(text);
+    // Some editors begin a file with a mark that cannot be seen.
+    let mut words = Words::new(text.trim_start_matches('\u{feff}'));
     let count = words.integer("the number of patches")?;
     let nets = (1..=count).map(|patch| read_patch(&mut words, patch)).collect::<Result<_, _>>()?;
     match words.next() {

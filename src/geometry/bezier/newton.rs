@@ -1,14 +1,42 @@
 //! Newton's method for the root in a part of a patch, with proof of what it found.
 
+use super::ControlNet;
 use super::power::{PowerForm, Tangents};
 use super::unit::UnitRay;
 use crate::math::lanes::Lanes;
 use glam::DVec3;
 
-/// Roots this far outside of a part, in x and y, still count: neighbouring parts and patches overlap by far more than
+/// How far outside of a part roots still count, in x and y: neighbouring parts and patches overlap by far more than
 /// rounding, hence no ray slips between them, and by far less than anyone can see. Where a derivative vanishes, that is no
 /// overlap in space; there subdivision decides, with a slack of its own.
-const SLACK: f64 = 1e-9;
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slack {
+    x: f64,
+    y: f64,
+}
+
+impl Slack {
+    /// For a patch in unit space, by its control points.
+    pub(super) fn new(net: &ControlNet) -> Self {
+        Self { x: along(&net.transposed()), y: along(net) }
+    }
+}
+
+/// The overlap of all parts, in x and y.
+const OVERLAP: f64 = 1e-9;
+/// The least overlap in unit space, for patches that are narrow: some digits of a ray that starts thousands of patches
+/// away are lost.
+const OVERLAP_IN_SPACE: f64 = 1e-11;
+/// No overlap is larger, in x and y, however narrow the patch.
+const MOST_OVERLAP: f64 = 1e-6;
+
+/// The slack along the rows of a net.
+fn along(net: &ControlNet) -> f64 {
+    let steps = net.points.iter().flat_map(|row| row.windows(2).map(|pair| pair[0].distance(pair[1])));
+    // Three steps over the two units of x.
+    let longest = 1.5 * steps.fold(0.0, f64::max);
+    (OVERLAP + OVERLAP_IN_SPACE / longest).min(MOST_OVERLAP)
+}
 
 /// Steps, relative to the part, after which no further one is made: the next would be this step squared, times what parts
 /// bend, some 1e-12 of the patch.
@@ -50,24 +78,24 @@ pub(super) enum Outcome {
 impl Domain {
     pub(super) const WHOLE: Self = Self { x: 0.0, y: 0.0, half_x: 1.0, half_y: 1.0 };
 
-    /// By how much a point is outside of the domain enlarged by a factor, and by [`SLACK`], in units of its half size;
+    /// By how much a point is outside of the domain enlarged by a factor, and by some slack, in units of its half size;
     /// negative inside.
     #[inline(always)]
-    fn outside(&self, x: f64, y: f64, enlarged: f64) -> f64 {
-        let off = |distance: f64, half: f64| (distance.abs() - enlarged * half - SLACK) / half;
-        let (x, y) = (off(x - self.x, self.half_x), off(y - self.y, self.half_y));
+    fn outside(&self, x: f64, y: f64, enlarged: f64, slack: Slack) -> f64 {
+        let off = |distance: f64, half: f64, slack: f64| (distance.abs() - enlarged * half - slack) / half;
+        let (x, y) = (off(x - self.x, self.half_x, slack.x), off(y - self.y, self.half_y, slack.y));
         // Keeps a NaN.
         if x > y { x } else { y }
     }
 
     /// The nearest point of the domain enlarged in the same way.
     #[inline(always)]
-    fn clamped(&self, x: f64, y: f64, enlarged: f64) -> (f64, f64) {
-        let limit = |x: f64, middle: f64, half: f64| {
-            let half = enlarged * half + SLACK;
+    fn clamped(&self, x: f64, y: f64, enlarged: f64, slack: Slack) -> (f64, f64) {
+        let limit = |x: f64, middle: f64, half: f64, slack: f64| {
+            let half = enlarged * half + slack;
             x.clamp(middle - half, middle + half)
         };
-        (limit(x, self.x, self.half_x), limit(y, self.y, self.half_y))
+        (limit(x, self.x, self.half_x, slack.x), limit(y, self.y, self.half_y, slack.y))
     }
 
     /// Where the part, enlarged by a factor, begins and ends in u.
@@ -136,11 +164,12 @@ pub(super) fn solve(
         let step = step(l, &p, ray);
         let (next_x, next_y) = (x + step.dx, y + step.dy);
         let length = (step.dx.abs() / part.half_x).max(step.dy.abs() / part.half_y);
-        let outside = part.outside(next_x, next_y, 1.0);
+        let outside = part.outside(next_x, next_y, 1.0, patch.slack);
         if outside > known.reach * length {
             return Outcome::None;
         }
-        let beyond = if known.enlarged == 1.0 { outside } else { part.outside(next_x, next_y, known.enlarged) };
+        let beyond =
+            if known.enlarged == 1.0 { outside } else { part.outside(next_x, next_y, known.enlarged, patch.slack) };
         if length < LAST_STEP && beyond <= 0.0 {
             if step.slope * known.slope < 0.0 {
                 return Outcome::Unknown;
@@ -155,7 +184,7 @@ pub(super) fn solve(
         if clamped > MAX_CLAMPED || beyond.is_nan() {
             break;
         }
-        (x, y) = part.clamped(next_x, next_y, known.enlarged);
+        (x, y) = part.clamped(next_x, next_y, known.enlarged, patch.slack);
     }
     Outcome::Unknown
 }

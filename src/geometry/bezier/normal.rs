@@ -3,25 +3,30 @@
 use super::{ControlNet, Derivatives};
 use glam::DVec3;
 
-/// How far to step towards the middle, in (u, v), to borrow the normal of a neighbour.
+/// How far to step, in (u, v), to borrow the normal of a neighbour.
 const NEIGHBOUR_STEPS: [f64; 4] = [1e-3, 1e-2, 0.1, 0.5];
 
-/// The unit vector along `dS/du x dS/dv`, or its limit for a point that comes from the middle of the patch: along a
-/// collapsed edge, on two equal rows, at a cusp. Where even that vanishes, the normal of a neighbour; of a patch
-/// without area, any unit vector across its longest extent. Never NaN for a finite net.
+/// The unit vector along `dS/du x dS/dv`, or its limit for a point that comes from the middle of the patch, else along u or
+/// along v: at a collapsed edge, on two equal rows, at a cusp. Where even that vanishes, the normal of a neighbour; of a
+/// patch without area, any unit vector across its longest extent. Never NaN for a finite net.
 ///
 /// `net` should lie near the origin: coordinates far larger than the patch cost digits.
 pub(super) fn unit_normal(net: &ControlNet, u: f64, v: f64) -> DVec3 {
     let size = net.bounds().diagonal();
-    let middle = (0.5 - u, 0.5 - v);
-    limit_normal(&net.derivatives(u, v), middle, size)
-        .or_else(|| {
-            NEIGHBOUR_STEPS.into_iter().find_map(|step| {
-                let at = (u + step * middle.0, v + step * middle.1);
-                limit_normal(&net.derivatives(at.0, at.1), middle, size)
-            })
-        })
-        .unwrap_or_else(|| normal_without_area(net))
+    let inward = |x: f64| if x < 0.5 { 0.5 } else { -0.5 };
+    // On the middle lines the way to the middle leads along the line, and at the middle nowhere.
+    let directions = [(0.5 - u, 0.5 - v), (inward(u), 0.0), (0.0, inward(v))];
+    let here = net.derivatives(u, v);
+    let limits = directions.iter().find_map(|&direction| limit_normal(&here, direction, size));
+    let neighbours = || {
+        NEIGHBOUR_STEPS.iter().flat_map(|&step| directions.map(|direction| (step, direction))).find_map(
+            |(step, direction)| {
+                let at = net.derivatives(u + step * direction.0, v + step * direction.1);
+                limit_normal(&at, direction, size)
+            },
+        )
+    };
+    limits.or_else(neighbours).unwrap_or_else(|| normal_without_area(net))
 }
 
 /// The normal at a point by its derivatives, else its limit when coming from `point + direction`.
@@ -48,4 +53,33 @@ fn normal_without_area(net: &ControlNet) -> DVec3 {
         .try_normalize()
         .or_else(|| longest.and_then(DVec3::try_normalize).map(|along| along.any_orthonormal_vector()))
         .unwrap_or(DVec3::NEG_Z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::array::from_fn;
+
+    #[test]
+    fn where_a_derivative_vanishes_along_a_middle_line_the_normal_is_the_limit() {
+        // x = (2 u - 1)^3, y = v, z = 3/2 v^2: dS/du vanishes where u is a half. The other way round it is the line v = 1/2.
+        let (cube, square) = ([-1.0, 1.0, -1.0, 1.0], [0.0, 0.0, 0.5, 1.5]);
+        let net = ControlNet { points: from_fn(|i| from_fn(|j| DVec3::new(cube[i], j as f64 / 3.0, square[j]))) };
+        for v in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let limit = DVec3::new(0.0, -3.0 * v, 1.0).normalize();
+            // A neighbour a thousandth of the way off has the same normal here.
+            assert!(unit_normal(&net, 0.5, v).distance(limit) < 1e-9, "at {v}: {}", unit_normal(&net, 0.5, v));
+            assert!(unit_normal(&net.transposed(), v, 0.5).distance(-limit) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn at_a_cusp_the_normal_is_one_of_its_sides() {
+        // x = (2 u - 1)^2, z = (2 u - 1)^3: the normals turn around where u is a half, along z on both sides.
+        let (square, cube) = ([1.0, -1.0 / 3.0, -1.0 / 3.0, 1.0], [-1.0, 1.0, -1.0, 1.0]);
+        let net = ControlNet { points: from_fn(|i| from_fn(|j| DVec3::new(square[i], j as f64 / 3.0, cube[i]))) };
+        for v in [0.0, 0.3, 0.5, 1.0] {
+            assert!(unit_normal(&net, 0.5, v).z.abs() > 1.0 - 1e-9, "at {v}: {}", unit_normal(&net, 0.5, v));
+        }
+    }
 }

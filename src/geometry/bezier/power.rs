@@ -1,4 +1,5 @@
 use super::ControlNet;
+use super::newton::Slack;
 use super::row::Row;
 use crate::math::lanes::Lanes;
 use glam::DVec3;
@@ -12,6 +13,8 @@ pub(super) struct PowerForm {
     coefficients: [[Row; 4]; 4],
     /// The same in single precision, `[axis][i][j]`.
     single: [[[f32; 4]; 4]; 3],
+    /// How far outside of a part a root still counts.
+    pub(super) slack: Slack,
 }
 
 /// A coordinate of eight points with its derivatives by x and by y.
@@ -62,6 +65,7 @@ impl PowerForm {
         Self {
             coefficients: from_fn(|i| from_fn(|j| Row([along_u[j][i].x, along_u[j][i].y, along_u[j][i].z, 0.0]))),
             single: from_fn(|axis| from_fn(|i| from_fn(|j| along_u[j][i][axis] as f32))),
+            slack: Slack::new(net),
         }
     }
 

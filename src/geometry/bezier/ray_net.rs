@@ -12,6 +12,8 @@ pub(super) const ROUNDING: f64 = 1e-14;
 
 /// Roots this far outside of a part still count, in units of the part.
 const SLACK: f64 = 1e-9;
+/// Roots this far outside still count in unit space: more than the rounding of rays that start thousands of patches away.
+const SLACK_IN_SPACE: f64 = 1e-11;
 
 /// The control points of a part of a patch along and across a ray: z along its direction, x = y = 0 on the ray.
 #[derive(Clone, Copy)]
@@ -104,7 +106,7 @@ impl RayNet {
         let x = combine(dv.y, &self.0.x, -dv.x, &self.0.y);
         let y = combine(-du.y, &self.0.x, du.x, &self.0.y);
         // Where a derivative vanishes, parts get so small or so thin that rounding is not small against them.
-        let slack = |row: DVec2| SLACK + ROUNDING * (row.x.abs() + row.y.abs());
+        let slack = |row: DVec2| SLACK + SLACK_IN_SPACE * (row.x.abs() + row.y.abs());
         // 1.5 times the step between control points: three steps for parameters from -1 to 1.
         let derivative = |rows: &Rows| Range::of(&rows.steps()).scaled(1.5);
         let (xt, yt) = (x.transposed(), y.transposed());
