@@ -104,7 +104,7 @@ fn passes(c: &mut Criterion) {
     group.finish();
 }
 
-/// Discs around some photons on the floor, which hold a hundred others on average.
+/// Discs around some photons on the floor, as large as those of visible points.
 fn queries(photons: &[Photon], slope: f32) -> Vec<Query> {
     // The first object, its front.
     let floor: Vec<&Photon> = photons.iter().filter(|photon| photon.tag >> 8 == 1).collect();
@@ -112,7 +112,7 @@ fn queries(photons: &[Photon], slope: f32) -> Vec<Query> {
     let around = |photon: &&Photon| Query {
         position: photon.position,
         normal: glam::Vec3::Y,
-        radius: 0.07,
+        radius: 0.12,
         slope: glam::Vec3::splat(slope),
         tag_start: photon.tag & !0xff,
         tag_span: 0xff,

@@ -1,0 +1,77 @@
+//! How long it takes from an edit to a picture, while a control point is dragged and after it was let go.
+
+#![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
+#![allow(clippy::print_stdout, reason = "the table is what it is for")]
+
+use patchlight::engine::{Command, Engine, EngineSettings, Frame};
+use patchlight::scene::{SceneFile, Shape};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const SIDE: u32 = 512;
+/// Moves of a drag; the first ones, by which drafts find their size, do not count.
+const MOVES: usize = 120;
+const MOVES_TO_SETTLE: usize = 20;
+
+/// The report scene with the inner control points of its sheet lifted by this much.
+fn lifted(by: f64) -> Arc<SceneFile> {
+    let mut file = SceneFile::built_in("report").expect("there is such a scene");
+    (file.scene.film.width, file.scene.film.height) = (SIDE, SIDE);
+    for object in &mut file.scene.objects {
+        if let Shape::Bezier(bezier) = &mut object.shape {
+            let mut patches = bezier.patches.as_ref().clone();
+            patches[0].points[1][1].y += by;
+            (bezier.patches, bezier.file) = (Arc::new(patches), None);
+        }
+    }
+    Arc::new(file)
+}
+
+/// Waits for the first frame of the newest scene that will do; the time since `start`, and the frame.
+fn wait(engine: &Engine, start: Instant, will_do: impl Fn(&Frame) -> bool) -> (Duration, Arc<Frame>) {
+    loop {
+        if let Some(frame) = engine.newest_frame()
+            && frame.generation == engine.generation()
+            && will_do(&frame)
+        {
+            return (start.elapsed(), frame);
+        }
+        std::thread::sleep(Duration::from_micros(100));
+    }
+}
+
+fn milliseconds(sorted: &[Duration], part: f64) -> f64 {
+    1e3 * sorted[((sorted.len() - 1) as f64 * part).round() as usize].as_secs_f64()
+}
+
+fn main() {
+    let engine = Engine::start(EngineSettings { threads: None, seed: 1 }, || {}).expect("there are threads");
+    let mut drafts = Vec::new();
+    let mut size = 0;
+    for k in 0..MOVES {
+        let scene = lifted(0.001 * k as f64);
+        let start = Instant::now();
+        engine.send(Command::Show(scene));
+        let (time, frame) = wait(&engine, start, |_| true);
+        if k >= MOVES_TO_SETTLE {
+            drafts.push(time);
+            size = frame.image.width;
+        }
+        // The mouse moves on.
+        std::thread::sleep(Duration::from_millis(8));
+    }
+    drafts.sort();
+    println!("| report scene, {SIDE} x {SIDE} | |\n|---|--:|");
+    println!("| first draft ({size} pixels wide), median | {:.0} ms |", milliseconds(&drafts, 0.5));
+    println!("| first draft, 95th percentile | {:.0} ms |", milliseconds(&drafts, 0.95));
+    let mut wholes: Vec<Duration> = (0..5)
+        .map(|k| {
+            let scene = lifted(0.2 + 0.001 * f64::from(k));
+            let start = Instant::now();
+            engine.send(Command::Show(scene));
+            wait(&engine, start, |frame| !frame.draft).0
+        })
+        .collect();
+    wholes.sort();
+    println!("| first whole picture, median | {:.0} ms |", milliseconds(&wholes, 0.5));
+}
