@@ -9,7 +9,8 @@ pub struct FilmSums {
     height: u32,
     iterations: u64,
     weight: f64,
-    /// Over all iterations, times their weights, in double precision: single stalls after some ten million additions.
+    /// Over all iterations, times their weights, in double precision: single stalls after some ten million additions. Empty
+    /// before the first: a scene that is edited again at once needs no film.
     all: Vec<DVec3>,
     /// Over the first ones, as many as the greatest power of two that leaves others: how much they differ from these tells
     /// the error. Not over every other one: neighbours in a sequence of low discrepancy complement each other, and
@@ -21,13 +22,17 @@ pub struct FilmSums {
 impl FilmSums {
     /// Nothing yet.
     pub fn new(width: u32, height: u32) -> Self {
-        let zero = vec![DVec3::ZERO; width as usize * height as usize];
-        Self { width, height, iterations: 0, weight: 0.0, all: zero.clone(), first: zero, first_weight: 0.0 }
+        Self { width, height, iterations: 0, weight: 0.0, all: Vec::new(), first: Vec::new(), first_weight: 0.0 }
+    }
+
+    fn pixel_count(&self) -> usize {
+        self.width as usize * self.height as usize
     }
 
     /// Adds the next iteration, a radiance for each pixel, to the mean with this weight.
     pub fn commit(&mut self, weight: f64, radiance: &[Rgb]) {
-        debug_assert_eq!(radiance.len(), self.all.len(), "an iteration covers the film");
+        debug_assert_eq!(radiance.len(), self.pixel_count(), "an iteration covers the film");
+        self.all.resize(self.pixel_count(), DVec3::ZERO);
         if self.iterations.is_power_of_two() {
             self.end_first();
         }
@@ -38,7 +43,8 @@ impl FilmSums {
 
     /// Adds the iterations of another film of the same size, which follow these.
     pub fn merge(&mut self, other: &Self) {
-        debug_assert_eq!(other.all.len(), self.all.len(), "films of one size");
+        debug_assert_eq!((other.width, other.height), (self.width, self.height), "films of one size");
+        self.all.resize(self.pixel_count(), DVec3::ZERO);
         self.end_first();
         self.all.iter_mut().zip(&other.all).for_each(|(sum, x)| *sum += x);
         self.iterations += other.iterations;
@@ -47,7 +53,7 @@ impl FilmSums {
 
     /// What follows is compared with what is there.
     fn end_first(&mut self) {
-        self.first.copy_from_slice(&self.all);
+        self.first.clone_from(&self.all);
         self.first_weight = self.weight;
     }
 
@@ -58,6 +64,9 @@ impl FilmSums {
 
     /// The mean of the iterations; black before the first.
     pub fn image(&self) -> LinearImage {
+        if self.all.is_empty() {
+            return LinearImage::black(self.width, self.height);
+        }
         let scale = if self.weight > 0.0 { 1.0 / self.weight } else { 0.0 };
         let pixels = self.all.iter().map(|sum| (*sum * scale).as_vec3()).collect();
         LinearImage { width: self.width, height: self.height, pixels }
@@ -126,7 +135,7 @@ mod tests {
     #[test]
     fn a_billion_equal_iterations_keep_counting() {
         let mut film = FilmSums::new(1, 1);
-        film.all[0] = DVec3::splat(1e9);
+        film.all = vec![DVec3::splat(1e9)];
         film.iterations = 1_000_000_000;
         film.commit(1.0, &[Rgb::splat(2.0)]);
         assert_eq!(film.all[0].x, 1e9 + 2.0);

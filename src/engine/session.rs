@@ -49,8 +49,8 @@ pub struct Session {
     summary: Arc<PlanSummary>,
     seed: u64,
     film: FilmSums,
-    /// Since the plan was refined.
-    contrasts: Contrasts,
+    /// Since the plan was refined, once there are any.
+    contrasts: Option<Contrasts>,
     counters: Counters,
     passes: PassSeconds,
     seconds: f64,
@@ -67,8 +67,17 @@ impl Session {
         let summary = Arc::new(PlanSummary { notes: plan.notes.clone() });
         let film = FilmSums::new(plan.camera.width, plan.camera.height);
         let passes = PassSeconds { prepare: start.elapsed().as_secs_f64(), ..PassSeconds::default() };
-        let contrasts = Contrasts::new(plan.camera.width, plan.camera.height);
-        Ok(Self { world, plan, summary, seed, film, contrasts, counters: Counters::default(), passes, seconds: 0.0 })
+        Ok(Self {
+            world,
+            plan,
+            summary,
+            seed,
+            film,
+            contrasts: None,
+            counters: Counters::default(),
+            passes,
+            seconds: 0.0,
+        })
     }
 
     /// The same for one component of the light alone, if one is given. To be called before the first iteration.
@@ -96,10 +105,12 @@ impl Session {
             self.passes += iteration.seconds;
             self.passes.commit += commit.elapsed().as_secs_f64();
             self.counters += iteration.counters;
-            self.contrasts.add(number, &iteration.contrasts);
-            if let Some(refined) = self.plan.refined(number, &self.contrasts) {
+            let (width, height) = (self.plan.camera.width, self.plan.camera.height);
+            let contrasts = self.contrasts.get_or_insert_with(|| Contrasts::new(width, height));
+            contrasts.add(number, &iteration.contrasts);
+            if let Some(refined) = self.plan.refined(number, contrasts) {
                 self.plan = refined;
-                self.contrasts = Contrasts::new(self.plan.camera.width, self.plan.camera.height);
+                self.contrasts = None;
             }
         }
         self.seconds += start.elapsed().as_secs_f64();

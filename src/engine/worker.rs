@@ -67,8 +67,10 @@ pub struct Engine {
 }
 
 /// Time that a draft should take: a frame of 30 Hz, less preparation and display.
-const DRAFT_SECONDS: f64 = 0.018;
+const DRAFT_SECONDS: f64 = 0.022;
 const COARSEST_DRAFT: f64 = 16.0;
+/// No finer draft takes longer: it would only keep the first whole picture waiting.
+const LONGEST_DRAFT_SECONDS: f64 = 0.12;
 /// Frames of a converging picture come this far apart at least.
 const FRAME_INTERVAL: Duration = Duration::from_millis(60);
 
@@ -219,9 +221,10 @@ impl Worker {
         // Never cancelled: else a fast drag would show nothing.
         let draft = self.pool.install(|| session.draft(generation, coarseness as u32, Cancel::NEVER));
         // Time goes with the number of pixels, the square of the coarseness; half a step at a time, for calm.
-        let wanted = coarseness * (start.elapsed().as_secs_f64() / DRAFT_SECONDS).sqrt();
+        let seconds = start.elapsed().as_secs_f64();
+        let wanted = coarseness * (seconds / DRAFT_SECONDS).sqrt();
         self.coarseness = (0.5 * (self.coarseness + wanted)).clamp(1.0, COARSEST_DRAFT);
-        self.next_draft = coarseness as u32 / 2;
+        self.next_draft = finer(coarseness as u32, seconds);
         draft.into_iter().for_each(|draft| self.shared.publish(draft));
         self.session = Some(session);
         self.last_frame = None;
@@ -234,8 +237,9 @@ impl Worker {
         let outdated = move || shared.is_outdated(generation);
         if self.next_draft > 1 {
             // Finer and finer drafts bridge the time that the first iteration takes.
+            let start = Instant::now();
             let draft = self.pool.install(|| session.draft(generation, self.next_draft, Cancel::when(&outdated)));
-            self.next_draft /= 2;
+            self.next_draft = finer(self.next_draft, start.elapsed().as_secs_f64());
             draft.into_iter().for_each(|draft| self.shared.publish(draft));
             return Ok(());
         }
@@ -265,6 +269,11 @@ impl Worker {
         self.session = None;
         self.shared.set_status(Status::Failed(failure));
     }
+}
+
+/// How coarse the draft after one is that took so long; 1 where there should be none.
+fn finer(coarseness: u32, seconds: f64) -> u32 {
+    if 4.0 * seconds <= LONGEST_DRAFT_SECONDS { coarseness / 2 } else { 1 }
 }
 
 fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {

@@ -22,6 +22,8 @@ pub struct Errors {
     pub rel_mse_trimmed: f64,
     /// Mean of the picture over mean of the reference: a bias shows here that noise hides elsewhere.
     pub mean_ratio: [f64; 3],
+    /// Mean radiance of the reference over pixels and channels.
+    pub reference_mean: f64,
 }
 
 /// Compares a picture with its reference, inside the mask where there is one.
@@ -49,6 +51,7 @@ fn errors(pairs: impl Iterator<Item = (Rgb, Rgb)>) -> Errors {
             sums[1][c] += r[c];
         }
     }
+    let count = squares.len() as f64;
     Errors {
         pixels: squares.len(),
         rmse: mean(&squares).sqrt(),
@@ -56,6 +59,7 @@ fn errors(pairs: impl Iterator<Item = (Rgb, Rgb)>) -> Errors {
         rmse_trimmed: trimmed_mean(&mut squares).sqrt(),
         rel_mse_trimmed: trimmed_mean(&mut relative),
         mean_ratio: std::array::from_fn(|c| sums[0][c] / sums[1][c]),
+        reference_mean: sums[1].iter().sum::<f64>() / (3.0 * count),
     }
 }
 

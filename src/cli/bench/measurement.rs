@@ -12,3 +12,10 @@ pub(super) struct Measurement {
     /// Of the pixels outside the mask, where there is one.
     pub(super) outside: Option<Errors>,
 }
+
+impl Measurement {
+    /// The error that was estimated without the reference, over the true one; `None` where there was no estimate.
+    pub(super) fn estimate_over_error(&self) -> Option<f64> {
+        self.stats.error_estimate.map(|estimate| estimate * self.errors.reference_mean / self.errors.rmse)
+    }
+}

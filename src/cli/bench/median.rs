@@ -17,6 +17,8 @@ pub(super) struct Median {
     pub(super) errors: Pair,
     /// Of the pixels outside the mask, where there is one.
     pub(super) outside: Option<Pair>,
+    /// Of [`Measurement::estimate_over_error`].
+    pub(super) estimate_over_error: Option<f64>,
 }
 
 /// One for each mark, the earliest first.
@@ -30,11 +32,13 @@ pub(super) fn medians(rows: &[Measurement]) -> Vec<Median> {
 fn at_mark(mark: f64, rows: &[Measurement]) -> Median {
     let rows: Vec<_> = rows.iter().filter(|row| row.mark == mark).collect();
     let outside: Vec<_> = rows.iter().filter_map(|row| row.outside).collect();
+    let estimates: Vec<_> = rows.iter().filter_map(|row| row.estimate_over_error()).collect();
     Median {
         mark,
         seconds: median(rows.iter().map(|row| row.stats.seconds)),
         errors: pair(rows.iter().map(|row| row.errors)),
         outside: (!outside.is_empty()).then(|| pair(outside.into_iter())),
+        estimate_over_error: (!estimates.is_empty()).then(|| median(estimates.into_iter())),
     }
 }
 

@@ -34,7 +34,13 @@ mod tests {
     use super::*;
 
     fn at(mark: f64, rmse: f64) -> Median {
-        Median { mark, seconds: mark, errors: Pair { rmse, rel_mse: rmse * rmse }, outside: None }
+        Median {
+            mark,
+            seconds: mark,
+            errors: Pair { rmse, rel_mse: rmse * rmse },
+            outside: None,
+            estimate_over_error: None,
+        }
     }
 
     #[test]

@@ -77,7 +77,7 @@ fn median_lines(medians: &[Median], seeds: u64) -> String {
     let outside = if masked { format!(" {:>11} {:>11}", "RMSE out", "relMSE out") } else { String::new() };
     let mut text =
         format!("medians of {seeds} seeds\n{:>8} {:>10} {:>10} {:>10}{outside}\n", "mark", "seconds", "RMSE", "relMSE");
-    for Median { mark, seconds, errors, outside } in medians {
+    for Median { mark, seconds, errors, outside, .. } in medians {
         let outside = outside.map_or(String::new(), |e| format!(" {:>11.5} {:>11.3e}", e.rmse, e.rel_mse));
         text += &format!("{mark:>8} {seconds:>10.2} {:>10.5} {:>10.3e}{outside}\n", errors.rmse, errors.rel_mse);
     }

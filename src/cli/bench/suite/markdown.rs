@@ -13,9 +13,10 @@ pub(super) fn table(runs: &[(String, Vec<Median>)], threads: usize) -> String {
     let threads = counted(threads as u64, "thread");
     let mut text = format!(
         "Medians over the seeds of each run, on {threads}. The seconds are those of the iterations that end before the \
-         mark, or of the first one. A slope is the power of time like which an error falls in the last two octaves.\n\n\
-         | scene | mark | seconds | RMSE | relMSE |{} slope of RMSE | slope of relMSE |\n\
-         |---|--:|--:|--:|--:|{}--:|--:|\n",
+         mark, or of the first one. A slope is the power of time like which an error falls in the last two octaves. The estimate is \
+         that of the RMSE without the reference.\n\n\
+         | scene | mark | seconds | RMSE | relMSE |{} estimate over RMSE | slope of RMSE | slope of relMSE |\n\
+         |---|--:|--:|--:|--:|{}--:|--:|--:|\n",
         outside(" RMSE outside the mask | relMSE outside the mask |".to_owned()),
         outside("--:|--:|".to_owned()),
     );
@@ -24,11 +25,12 @@ pub(super) fn table(runs: &[(String, Vec<Median>)], threads: usize) -> String {
             let is_last = k + 1 == medians.len();
             let slopes = slopes(medians).filter(|_| is_last);
             text += &format!(
-                "| {name} | {} | {:.2} | {} |{} {} |\n",
+                "| {name} | {} | {:.2} | {} |{} {} | {} |\n",
                 median.mark,
                 median.seconds,
                 errors(median.errors),
                 outside(format!(" {} |", median.outside.map_or("|".to_owned(), errors))),
+                median.estimate_over_error.map_or(String::new(), |ratio| format!("{ratio:.2}")),
                 slopes.map_or("|".to_owned(), |s| format!("{:.2} | {:.2}", s.rmse, s.rel_mse)),
             );
         }
@@ -46,7 +48,13 @@ mod tests {
 
     fn median(mark: f64, rmse: f64, outside: Option<f64>) -> Median {
         let pair = |rmse| Pair { rmse, rel_mse: rmse * rmse };
-        Median { mark, seconds: mark, errors: pair(rmse), outside: outside.map(pair) }
+        Median {
+            mark,
+            seconds: mark,
+            errors: pair(rmse),
+            outside: outside.map(pair),
+            estimate_over_error: outside.map(|_| 1.25),
+        }
     }
 
     #[test]
@@ -56,10 +64,10 @@ mod tests {
         assert!(text.starts_with("Medians over the seeds of each run, on 1 thread. "), "{text}");
         assert!(
             text.ends_with(
-                "\n\n| scene | mark | seconds | RMSE | relMSE | slope of RMSE | slope of relMSE |\n\
-                 |---|--:|--:|--:|--:|--:|--:|\n\
-                 | a | 1 | 1.00 | 0.50000 | 2.50e-1 | | |\n\
-                 | a | 4 | 4.00 | 0.25000 | 6.25e-2 | -0.50 | -1.00 |\n"
+                "\n\n| scene | mark | seconds | RMSE | relMSE | estimate over RMSE | slope of RMSE | slope of relMSE |\n\
+                 |---|--:|--:|--:|--:|--:|--:|--:|\n\
+                 | a | 1 | 1.00 | 0.50000 | 2.50e-1 |  | | |\n\
+                 | a | 4 | 4.00 | 0.25000 | 6.25e-2 |  | -0.50 | -1.00 |\n"
             ),
             "{text}"
         );
@@ -73,7 +81,7 @@ mod tests {
         ];
         let text = table(&runs, 2);
         let bars: Vec<_> = text.lines().skip(2).map(|line| line.matches('|').count()).collect();
-        assert_eq!(bars, [10; 5], "{text}");
-        assert!(text.contains("| b | 1 | 1.00 | 0.50000 | 2.50e-1 | 0.10000 | 1.00e-2 | | |\n"), "{text}");
+        assert_eq!(bars, [11; 5], "{text}");
+        assert!(text.contains("| b | 1 | 1.00 | 0.50000 | 2.50e-1 | 0.10000 | 1.00e-2 | 1.25 | | |\n"), "{text}");
     }
 }
