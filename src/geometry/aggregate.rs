@@ -1,9 +1,6 @@
 use super::bezier::{Patch, PatchHit};
-use super::packets::Packets;
 use super::{Bvh, Plane, Quad, Sphere};
-#[cfg(target_arch = "x86_64")]
-use crate::math::lanes::Avx2;
-use crate::math::lanes::{LANES, Portable, set_bits};
+use crate::math::lanes::{LANES, set_bits};
 use crate::math::{Aabb, Ray};
 use glam::{DVec2, DVec3};
 use multiversion::multiversion;
@@ -72,11 +69,6 @@ impl Primitive {
         }
     }
 
-    /// Whether it may go in packets.
-    fn is_simple(&self) -> bool {
-        matches!(self, Self::Quad(_) | Self::Sphere(_))
-    }
-
     #[inline(always)]
     fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         match self {
@@ -130,43 +122,28 @@ impl Primitive {
     }
 }
 
-/// Up to so many quads and spheres are tested one and all; more of them go into the tree.
-const FEW: usize = 24;
-
-/// All primitives of a scene: planes and a few quads and spheres, which every ray is tested against, and the tree over the
-/// others.
+/// All primitives of a scene and the tree over those that have bounds.
 #[derive(Clone, Debug, Default)]
 pub struct Aggregate {
     primitives: Vec<Primitive>,
     planes: Vec<u32>,
-    packets: Packets,
-    /// Over what is in the packets, to look for what is near a point.
-    few: Bvh,
-    /// Over all that is neither a plane nor in the packets.
     bvh: Bvh,
 }
 
 impl Aggregate {
     /// Builds the tree; takes n log n.
     pub fn new(primitives: Vec<Primitive>) -> Self {
+        let boxes: Vec<Aabb> = primitives.iter().map(Primitive::bounds).collect();
         let planes = (0..primitives.len() as u32).filter(|&i| matches!(primitives[i as usize], Primitive::Plane(_)));
-        let (few, others) = boxes(&primitives);
-        Self {
-            planes: planes.collect(),
-            packets: packets(&primitives),
-            few: Bvh::build(&few),
-            bvh: Bvh::build(&others),
-            primitives,
-        }
+        Self { planes: planes.collect(), bvh: Bvh::build(&boxes), primitives }
     }
 
     /// The same tree fitted to moved primitives: as many, of the same kinds, in the same order. Linear time.
     pub fn refitted(&self, primitives: Vec<Primitive>) -> Self {
-        let (few_boxes, other_boxes) = boxes(&primitives);
-        let (mut few, mut bvh) = (self.few.clone(), self.bvh.clone());
-        few.refit(&few_boxes);
-        bvh.refit(&other_boxes);
-        Self { planes: self.planes.clone(), packets: packets(&primitives), few, bvh, primitives }
+        let boxes: Vec<Aabb> = primitives.iter().map(Primitive::bounds).collect();
+        let mut bvh = self.bvh.clone();
+        bvh.refit(&boxes);
+        Self { planes: self.planes.clone(), bvh, primitives }
     }
 
     /// In the order they were given.
@@ -176,7 +153,7 @@ impl Aggregate {
 
     /// The box around all that have bounds.
     pub fn bounds(&self) -> Aabb {
-        self.few.bounds().union(&self.bvh.bounds())
+        self.bvh.bounds()
     }
 
     /// The nearest hit with `t_min < t < t_max`.
@@ -203,26 +180,7 @@ impl Aggregate {
             if counts(primitive) { self.primitives[primitive as usize].distance(point, limit) } else { limit }
         };
         let to_planes = self.planes.iter().fold(limit, |nearest, &plane| to(plane, nearest));
-        let to_few = self.few.distance(point, to_planes, to);
-        self.bvh.distance(point, to_few, to)
-    }
-
-    #[inline(always)]
-    fn meet_packets(&self, ray: &mut Ray, closest: &mut Option<Hit>) {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(avx2) = Avx2::try_new() {
-            return self.packets.meet(avx2, ray, closest);
-        }
-        self.packets.meet(Portable, ray, closest);
-    }
-
-    #[inline(always)]
-    fn packets_occlude(&self, ray: &Ray) -> bool {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(avx2) = Avx2::try_new() {
-            return self.packets.occlude(avx2, ray);
-        }
-        self.packets.occlude(Portable, ray)
+        self.bvh.distance(point, to_planes, to)
     }
 
     /// Shortens the ray to its hit with one primitive, if there is one.
@@ -235,23 +193,6 @@ impl Aggregate {
     }
 }
 
-/// Whether the primitives are so few that quads and spheres go in packets.
-fn has_few(primitives: &[Primitive]) -> bool {
-    primitives.iter().filter(|primitive| primitive.is_simple()).count() <= FEW
-}
-
-fn packets(primitives: &[Primitive]) -> Packets {
-    if has_few(primitives) { Packets::new((0..).zip(primitives)) } else { Packets::default() }
-}
-
-/// The boxes of what is in the packets and of the others; empty for the rest.
-fn boxes(primitives: &[Primitive]) -> (Vec<Aabb>, Vec<Aabb>) {
-    let few = has_few(primitives);
-    let boxed = |primitive: &Primitive, wanted: bool| if wanted { primitive.bounds() } else { Aabb::EMPTY };
-    let boxes = |in_packets: bool| primitives.iter().map(|p| boxed(p, (few && p.is_simple()) == in_packets)).collect();
-    (boxes(true), boxes(false))
-}
-
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
     let mut ray = *ray;
@@ -259,7 +200,6 @@ fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
     for &plane in &aggregate.planes {
         aggregate.meet(plane, &mut ray, &mut closest);
     }
-    aggregate.meet_packets(&mut ray, &mut closest);
     aggregate.bvh.traverse(&mut ray, |primitive, ray| {
         aggregate.meet(primitive, ray, &mut closest);
         true
@@ -271,11 +211,10 @@ fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
 fn closest_hits(aggregate: &Aggregate, rays: &[Ray; LANES]) -> [Option<Hit>; LANES] {
     let mut rays = *rays;
     let mut closest = [None; LANES];
-    for (ray, closest) in rays.iter_mut().zip(&mut closest) {
-        for &plane in &aggregate.planes {
+    for &plane in &aggregate.planes {
+        for (ray, closest) in rays.iter_mut().zip(&mut closest) {
             aggregate.meet(plane, ray, closest);
         }
-        aggregate.meet_packets(ray, closest);
     }
     aggregate.bvh.traverse_together(&mut rays, |primitive, met, rays| {
         if let Primitive::Patch(patch) = &aggregate.primitives[primitive as usize] {
@@ -297,9 +236,6 @@ fn closest_hits(aggregate: &Aggregate, rays: &[Ray; LANES]) -> [Option<Hit>; LAN
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 fn occluded(aggregate: &Aggregate, ray: &Ray) -> bool {
     if aggregate.planes.iter().any(|&plane| aggregate.primitives[plane as usize].intersect(ray).is_some()) {
-        return true;
-    }
-    if aggregate.packets_occlude(ray) {
         return true;
     }
     let mut found = false;

@@ -3,7 +3,6 @@
 mod aggregate;
 pub mod bezier;
 mod bvh;
-mod packets;
 mod plane;
 mod quad;
 mod sphere;

@@ -4,7 +4,6 @@
 //! offset that keeps it off its own surface, at any distance from the world's origin.
 
 mod aabb;
-pub mod doubles;
 pub mod float;
 mod frame;
 pub mod lanes;
