@@ -98,8 +98,8 @@ impl Editor {
             ui.set_opacity(1.0);
         } else {
             commands.extend(action::pressed(ui.ctx()).into_iter().map(AppCommand::Do));
+            commands.extend(dialogs::dropped_files(ui.ctx()));
         }
-        commands.extend(dialogs::dropped_files(ui.ctx()));
         Panel::top("menu").show(ui, |ui| menu_ui(ui, self, &mut commands));
         Panel::bottom("status").show(ui, |ui| status_bar_ui(ui, self));
         if self.show_panels {

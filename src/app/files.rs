@@ -90,6 +90,7 @@ impl Editor {
         }
     }
 
+    /// Does what the file was chosen for.
     pub(crate) fn carry_out(&mut self, ctx: &Context, purpose: Purpose, path: PathBuf) {
         match purpose {
             Purpose::OpenScene => self.apply(ctx, super::command::AppCommand::GoTo(super::command::Next::Open(path))),

@@ -67,7 +67,7 @@ impl FilmSums {
         if self.all.is_empty() {
             return LinearImage::black(self.width, self.height);
         }
-        let scale = if self.weight > 0.0 { 1.0 / self.weight } else { 0.0 };
+        let scale = 1.0 / self.weight;
         let pixels = self.all.iter().map(|sum| (*sum * scale).as_vec3()).collect();
         LinearImage { width: self.width, height: self.height, pixels }
     }

@@ -226,7 +226,9 @@ impl Walk<'_> {
             radiance += self.trace_path(pixel, start);
         }
         radiance /= count as f32;
-        if radiance.is_finite() {
+        if !self.plan.finds_direct_light {
+            Rgb::ZERO
+        } else if radiance.is_finite() {
             radiance
         } else {
             self.batch.counters.dropped_samples += 1;
@@ -261,13 +263,12 @@ impl Walk<'_> {
     /// At what the branch's ray hits; returns the light that the camera gets from it without photons.
     fn follow(&mut self, mut branch: Branch, hit: Option<Hit>, pixel: u32, sampler: &mut Sampler) -> Rgb {
         let Some(hit) = hit else {
-            return if self.plan.finds_direct_light { branch.throughput * self.world.background } else { Rgb::ZERO };
+            return branch.throughput * self.world.background;
         };
         let point = self.world.surface_point(&branch.ray, hit);
         branch.throughput *= branch.media.transmittance(self.world, hit.t);
         branch.distance += hit.t;
         let (object, material) = match self.world.surfaces[hit.primitive as usize] {
-            Surface::Light(_) if !self.plan.finds_direct_light => return Rgb::ZERO,
             Surface::Light(light) => return emitted(&self.world.lights[light as usize], &branch, &point),
             Surface::Object { object, material, .. } => (object, material),
         };

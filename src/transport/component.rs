@@ -26,18 +26,11 @@ impl Plan {
 
 /// The note as it is where this component alone is wanted.
 fn of_component(note: PlanNote, component: Component) -> PlanNote {
-    let (what, reason) = (
-        note.what.as_str(),
-        match component {
-            Component::Direct => "only direct light is asked for",
-            Component::Caustics => "only caustics are asked for",
-            Component::Interreflection => "only interreflection is asked for",
-        },
-    );
-    let belongs = match component {
-        Component::Direct => what == "direct light" || what == "background",
-        Component::Caustics => what.starts_with("caustics"),
-        Component::Interreflection => what == "interreflection",
+    let what = note.what.as_str();
+    let (belongs, reason) = match component {
+        Component::Direct => (["direct light", "background"].contains(&what), "only direct light is asked for"),
+        Component::Caustics => (what.starts_with("caustics"), "only caustics are asked for"),
+        Component::Interreflection => (what == "interreflection", "only interreflection is asked for"),
     };
     if belongs || !note.rendered || what == "textures" {
         return note;

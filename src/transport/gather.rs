@@ -8,7 +8,7 @@ use super::counters::Counters;
 use super::kernel;
 use super::maps::{MapKind, Maps, PerMap};
 use super::photon::Photon;
-use super::photon_map::{Query, Stack};
+use super::photon_map::{PhotonMap, Query, Stack};
 use super::photon_pass::MAX_SHADING_FACTOR;
 use super::plan::Plan;
 use super::sharing::Sharing;
@@ -127,7 +127,8 @@ impl Gatherer<'_> {
 
     #[inline(always)]
     fn shared_irradiance<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
-        let irradiance = self.irradiance(l, MapKind::Global, stack, point, None, self.radius(MapKind::Global, point));
+        let disc = self.disc(point, None, self.radius(MapKind::Global, point));
+        let irradiance = disc.map_or(Rgb::ZERO, |disc| irradiance(l, &self.maps.global, stack, point, &disc));
         if irradiance.is_finite() { irradiance } else { Rgb::ZERO }
     }
 
@@ -248,64 +249,14 @@ impl Gatherer<'_> {
         radius: f64,
     ) -> Rgb {
         let is_glossy = kind == MapKind::Caustic && matches!(point.scattering.lobe, Lobe::Phong { .. });
+        let Some(disc) = self.disc(point, view, radius) else { return Rgb::ZERO };
+        let map = &self.maps[kind];
         let reflected = if is_glossy {
-            self.glossy_reflection(l, kind, stack, point, view, radius)
+            glossy_reflection(l, map, stack, point, &disc)
         } else {
-            self.irradiance(l, kind, stack, point, view, radius) * bsdf::eval_diffuse(&point.scattering)
+            irradiance(l, map, stack, point, &disc) * bsdf::eval_diffuse(&point.scattering)
         };
         point.throughput * reflected
-    }
-
-    /// The density estimate of irradiance, W per square scene unit: `sum flux K / integral of K` over the disc on the
-    /// surface.
-    #[inline(always)]
-    fn irradiance<L: Lanes>(
-        &self,
-        l: L,
-        kind: MapKind,
-        stack: &mut Stack,
-        point: &VisiblePoint,
-        view: Option<&VisibilityPolygon>,
-        radius: f64,
-    ) -> Rgb {
-        let Some(Disc { query, tilt, view, integral }) = self.disc(point, view, radius) else { return Rgb::ZERO };
-        let map = &self.maps[kind];
-        let sum = if view.is_some() {
-            let mut sum = Rgb::ZERO;
-            map.for_each(l, &query, &tilt, stack, |weight, photon| {
-                sum += if is_in_view(point, view, &photon) { weight * photon.flux } else { Rgb::ZERO };
-            });
-            sum
-        } else if tilt.bend > 0.0 || point.n_shade != point.n_side {
-            map.sum_tilted_flux(l, &query, &tilt, stack)
-        } else {
-            map.sum_flux(l, &query, stack)
-        };
-        sum / integral as f32
-    }
-
-    /// The density estimate of what a point with a Phong lobe reflects.
-    #[inline(always)]
-    fn glossy_reflection<L: Lanes>(
-        &self,
-        l: L,
-        kind: MapKind,
-        stack: &mut Stack,
-        point: &VisiblePoint,
-        view: Option<&VisibilityPolygon>,
-        radius: f64,
-    ) -> Rgb {
-        let Some(Disc { query, tilt, view, integral }) = self.disc(point, view, radius) else { return Rgb::ZERO };
-        let diffuse = bsdf::eval_diffuse(&point.scattering);
-        let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
-        let mut sum = Rgb::ZERO;
-        self.maps[kind].for_each(l, &query, &tilt, stack, |weight, photon| {
-            if is_in_view(point, view, &photon) {
-                let lobe = bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
-                sum += weight * photon.flux * (diffuse + lobe);
-            }
-        });
-        sum / integral as f32
     }
 
     /// The disc of this radius round a point; none on a light's surface.
@@ -346,6 +297,40 @@ struct Disc<'v> {
     view: Option<&'v VisibilityPolygon>,
     /// Of the kernel over the part of the disc that the surface fills and the point sees.
     integral: f64,
+}
+
+/// The density estimate of irradiance, W per square scene unit: `sum flux K / integral of K` over the disc on the surface.
+#[inline(always)]
+fn irradiance<L: Lanes>(l: L, map: &PhotonMap, stack: &mut Stack, point: &VisiblePoint, disc: &Disc) -> Rgb {
+    let Disc { query, tilt, view, integral } = disc;
+    let sum = if view.is_some() {
+        let mut sum = Rgb::ZERO;
+        map.for_each(l, query, tilt, stack, |weight, photon| {
+            sum += if is_in_view(point, *view, &photon) { weight * photon.flux } else { Rgb::ZERO };
+        });
+        sum
+    } else if tilt.bend > 0.0 || point.n_shade != point.n_side {
+        map.sum_tilted_flux(l, query, tilt, stack)
+    } else {
+        map.sum_flux(l, query, stack)
+    };
+    sum / *integral as f32
+}
+
+/// The density estimate of what a point with a Phong lobe reflects.
+#[inline(always)]
+fn glossy_reflection<L: Lanes>(l: L, map: &PhotonMap, stack: &mut Stack, point: &VisiblePoint, disc: &Disc) -> Rgb {
+    let Disc { query, tilt, view, integral } = disc;
+    let diffuse = bsdf::eval_diffuse(&point.scattering);
+    let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
+    let mut sum = Rgb::ZERO;
+    map.for_each(l, query, tilt, stack, |weight, photon| {
+        if is_in_view(point, *view, &photon) {
+            let lobe = bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
+            sum += weight * photon.flux * (diffuse + lobe);
+        }
+    });
+    sum / *integral as f32
 }
 
 /// Whether nothing stands between a point and a photon.

@@ -309,6 +309,16 @@ fn dropped_control_points_become_an_object_that_is_saved_with_its_file() {
 }
 
 #[test]
+fn a_dropped_picture_becomes_a_texture_and_a_dropped_scene_is_opened() {
+    let mut ui = open("cornell");
+    drop_file(&mut ui, "scenes/teapot.toml".into());
+    assert_eq!(ui.state().document.file().location, Location::Disk("scenes/teapot.toml".into()));
+    let before = scene(&ui).textures.len();
+    drop_file(&mut ui, "picture.PNG".into());
+    assert_eq!((scene(&ui).textures.len(), scene(&ui).textures[before].name.as_str()), (before + 1, "picture"));
+}
+
+#[test]
 fn enter_closes_a_message() {
     let mut ui = open("cornell");
     ui.state_mut().dialog = Some(Dialog::error("A title".into(), "A text".into()));

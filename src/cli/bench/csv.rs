@@ -3,8 +3,8 @@ use super::measurement::Measurement;
 /// Everything that was measured, for other programs. What is outside a mask that is not there stays empty.
 pub(super) fn csv(rows: &[Measurement]) -> String {
     let mut text = "seed,mark,seconds,iterations,photons,rays,dropped,rmse,rel_mse,rmse_trimmed,rel_mse_trimmed,\
-                    rmse_outside,rel_mse_outside,mean_ratio_r,mean_ratio_g,mean_ratio_b,estimate_over_error,camera,photons_pass,map,\
-                    gather,commit\n"
+                    rmse_outside,rel_mse_outside,mean_ratio_r,mean_ratio_g,mean_ratio_b,estimate_over_error,\
+                    camera,photons_pass,map,gather,commit\n"
         .to_owned();
     for row in rows {
         let Measurement { seed, mark, stats, errors, outside } = row;

@@ -244,8 +244,7 @@ impl PhotonMap {
                 let (first, blocks) = (node.first[slot], node.blocks[slot]);
                 if blocks == 0 {
                     stack.push(first);
-                }
-                if blocks > 0 {
+                } else {
                     let (part, place) = (first >> PLACE_BITS, first & ((1 << PLACE_BITS) - 1));
                     for photons in &self.blocks[part as usize][place as usize..][..blocks as usize] {
                         block(photons, wide.weights(l, query, photons));
