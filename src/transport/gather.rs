@@ -127,8 +127,10 @@ impl Gatherer<'_> {
 
     #[inline(always)]
     fn shared_irradiance<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
-        let disc = self.disc(point, None, self.radius(MapKind::Global, point));
-        let irradiance = disc.map_or(Rgb::ZERO, |disc| irradiance(l, &self.maps.global, stack, point, &disc));
+        // No closure: it would not get the vector instructions.
+        let radius = self.radius(MapKind::Global, point);
+        let Some(disc) = self.disc(point, None, radius) else { return Rgb::ZERO };
+        let irradiance = irradiance(l, &self.maps.global, stack, point, &disc);
         if irradiance.is_finite() { irradiance } else { Rgb::ZERO }
     }
 
