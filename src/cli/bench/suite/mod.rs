@@ -13,7 +13,11 @@ use std::{
     path::Path,
 };
 
-/// `patchlight bench --suite`: for each run a table and a plot into a folder, and the medians of all into one table.
+/// Fewer marks make no curve.
+const FEWEST_PLOTTED: usize = 3;
+
+/// `patchlight bench --suite`: for each run a table, and a plot where it makes a curve, into a folder, and the medians of all
+/// into one table.
 pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> Result<(), CliError> {
     // All files are read before anything is rendered.
     let folder = suite.parent().unwrap_or(Path::new(""));
@@ -28,8 +32,11 @@ pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> 
         writeln!(stdout(), "\n{name}")?;
         let rows = pool.install(|| run.measure())?;
         write(&output.join(format!("{name}.csv")), csv(&rows).as_bytes())?;
-        write(&output.join(format!("{name}.png")), &plot::png(&name, &rows)?)?;
-        results.push((name, medians(&rows)));
+        let medians = medians(&rows);
+        if medians.len() >= FEWEST_PLOTTED {
+            write(&output.join(format!("{name}.png")), &plot::png(&name, &rows)?)?;
+        }
+        results.push((name, medians));
     }
     write(&output.join("table.md"), markdown::table(&results, pool.current_num_threads()).as_bytes())
 }
