@@ -75,7 +75,7 @@
 //! | path, vertex | light's way between a light and the camera, and its events |
 //! | visible point | where a camera path meets a surface that scatters in many directions |
 //! | photon | flux that arrived at a point, with its direction |
-//! | patch, part, packet | a bicubic surface; one of the nearly flat pieces into which it is cut; eight parts that a ray meets at once |
+//! | patch, part, packet | a bicubic surface; one of the nearly flat pieces into which it is cut; shapes that a ray meets side by side: eight parts, four quads or spheres |
 //! | throughput | what a path keeps of the light that enters at its end (beta in papers) |
 //! | `wi`, `wo` | directions away from the surface: towards where light comes from, and where it goes |
 //! | `n_geom`, `n_side`, `n_shade` | unit normal of the front; of the side at hand; as tilted by a relief map |

@@ -1,5 +1,8 @@
 use super::bezier::{Patch, PatchHit};
+use super::packets::Packets;
 use super::{Bvh, Plane, Quad, Sphere};
+#[cfg(target_arch = "x86_64")]
+use crate::math::lanes::Avx2;
 use crate::math::lanes::{LANES, set_bits};
 use crate::math::{Aabb, Ray};
 use glam::{DVec2, DVec3};
@@ -69,6 +72,11 @@ impl Primitive {
         }
     }
 
+    /// Whether it may go in packets.
+    fn is_simple(&self) -> bool {
+        matches!(self, Self::Quad(_) | Self::Sphere(_))
+    }
+
     #[inline(always)]
     fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         match self {
@@ -122,28 +130,43 @@ impl Primitive {
     }
 }
 
-/// All primitives of a scene and the tree over those that have bounds.
+/// Up to so many quads and spheres are tested one and all; more of them go into the tree.
+const FEW: usize = 24;
+
+/// All primitives of a scene: planes and a few quads and spheres, which every ray is tested against, and the tree over the
+/// others.
 #[derive(Clone, Debug, Default)]
 pub struct Aggregate {
     primitives: Vec<Primitive>,
     planes: Vec<u32>,
+    packets: Packets,
+    /// Over what is in the packets, to look for what is near a point.
+    few: Bvh,
+    /// Over all that is neither a plane nor in the packets.
     bvh: Bvh,
 }
 
 impl Aggregate {
     /// Builds the tree; takes n log n.
     pub fn new(primitives: Vec<Primitive>) -> Self {
-        let boxes: Vec<Aabb> = primitives.iter().map(Primitive::bounds).collect();
         let planes = (0..primitives.len() as u32).filter(|&i| matches!(primitives[i as usize], Primitive::Plane(_)));
-        Self { planes: planes.collect(), bvh: Bvh::build(&boxes), primitives }
+        let (few, others) = boxes(&primitives);
+        Self {
+            planes: planes.collect(),
+            packets: packets(&primitives),
+            few: Bvh::build(&few),
+            bvh: Bvh::build(&others),
+            primitives,
+        }
     }
 
     /// The same tree fitted to moved primitives: as many, of the same kinds, in the same order. Linear time.
     pub fn refitted(&self, primitives: Vec<Primitive>) -> Self {
-        let boxes: Vec<Aabb> = primitives.iter().map(Primitive::bounds).collect();
-        let mut bvh = self.bvh.clone();
-        bvh.refit(&boxes);
-        Self { planes: self.planes.clone(), bvh, primitives }
+        let (few_boxes, other_boxes) = boxes(&primitives);
+        let (mut few, mut bvh) = (self.few.clone(), self.bvh.clone());
+        few.refit(&few_boxes);
+        bvh.refit(&other_boxes);
+        Self { planes: self.planes.clone(), packets: packets(&primitives), few, bvh, primitives }
     }
 
     /// In the order they were given.
@@ -153,7 +176,7 @@ impl Aggregate {
 
     /// The box around all that have bounds.
     pub fn bounds(&self) -> Aabb {
-        self.bvh.bounds()
+        self.few.bounds().union(&self.bvh.bounds())
     }
 
     /// The nearest hit with `t_min < t < t_max`.
@@ -180,7 +203,26 @@ impl Aggregate {
             if counts(primitive) { self.primitives[primitive as usize].distance(point, limit) } else { limit }
         };
         let to_planes = self.planes.iter().fold(limit, |nearest, &plane| to(plane, nearest));
-        self.bvh.distance(point, to_planes, to)
+        let to_few = self.few.distance(point, to_planes, to);
+        self.bvh.distance(point, to_few, to)
+    }
+
+    #[inline(always)]
+    fn meet_packets(&self, ray: &mut Ray, closest: &mut Option<Hit>) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Avx2::try_new() {
+            return self.packets.meet(avx2, ray, closest);
+        }
+        self.packets.meet(pulp::Scalar256b, ray, closest);
+    }
+
+    #[inline(always)]
+    fn packets_occlude(&self, ray: &Ray) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Avx2::try_new() {
+            return self.packets.occlude(avx2, ray);
+        }
+        self.packets.occlude(pulp::Scalar256b, ray)
     }
 
     /// Shortens the ray to its hit with one primitive, if there is one.
@@ -193,6 +235,23 @@ impl Aggregate {
     }
 }
 
+/// Whether the primitives are so few that quads and spheres go in packets.
+fn has_few(primitives: &[Primitive]) -> bool {
+    primitives.iter().filter(|primitive| primitive.is_simple()).count() <= FEW
+}
+
+fn packets(primitives: &[Primitive]) -> Packets {
+    if has_few(primitives) { Packets::new((0..).zip(primitives)) } else { Packets::default() }
+}
+
+/// The boxes of what is in the packets and of the others; empty for the rest.
+fn boxes(primitives: &[Primitive]) -> (Vec<Aabb>, Vec<Aabb>) {
+    let few = has_few(primitives);
+    let boxed = |primitive: &Primitive, wanted: bool| if wanted { primitive.bounds() } else { Aabb::EMPTY };
+    let boxes = |in_packets: bool| primitives.iter().map(|p| boxed(p, (few && p.is_simple()) == in_packets)).collect();
+    (boxes(true), boxes(false))
+}
+
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
     let mut ray = *ray;
@@ -200,6 +259,7 @@ fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
     for &plane in &aggregate.planes {
         aggregate.meet(plane, &mut ray, &mut closest);
     }
+    aggregate.meet_packets(&mut ray, &mut closest);
     aggregate.bvh.traverse(&mut ray, |primitive, ray| {
         aggregate.meet(primitive, ray, &mut closest);
         true
@@ -211,10 +271,11 @@ fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
 fn closest_hits(aggregate: &Aggregate, rays: &[Ray; LANES]) -> [Option<Hit>; LANES] {
     let mut rays = *rays;
     let mut closest = [None; LANES];
-    for &plane in &aggregate.planes {
-        for (ray, closest) in rays.iter_mut().zip(&mut closest) {
+    for (ray, closest) in rays.iter_mut().zip(&mut closest) {
+        for &plane in &aggregate.planes {
             aggregate.meet(plane, ray, closest);
         }
+        aggregate.meet_packets(ray, closest);
     }
     aggregate.bvh.traverse_together(&mut rays, |primitive, met, rays| {
         if let Primitive::Patch(patch) = &aggregate.primitives[primitive as usize] {
@@ -236,6 +297,9 @@ fn closest_hits(aggregate: &Aggregate, rays: &[Ray; LANES]) -> [Option<Hit>; LAN
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 fn occluded(aggregate: &Aggregate, ray: &Ray) -> bool {
     if aggregate.planes.iter().any(|&plane| aggregate.primitives[plane as usize].intersect(ray).is_some()) {
+        return true;
+    }
+    if aggregate.packets_occlude(ray) {
         return true;
     }
     let mut found = false;
@@ -302,10 +366,10 @@ mod tests {
         DVec3::new(s.next_1d(), s.next_1d(), s.next_1d())
     }
 
-    /// Forty primitives of all kinds in a cube of side 6, over a plane.
-    fn scattered() -> Aggregate {
+    /// So many primitives of all kinds in a cube of side 6, over a plane.
+    fn scattered(count: u64) -> Aggregate {
         let mut primitives = vec![Primitive::Plane(Plane::new(-3.0 * DVec3::Y, DVec3::Y, None))];
-        for k in 0..40 {
+        for k in 0..count {
             let place = 6.0 * unit(k);
             primitives.push(match k % 3 {
                 0 => Primitive::Quad(Quad::new(place, unit(100 + k), DVec3::Y)),
@@ -317,8 +381,36 @@ mod tests {
     }
 
     #[test]
+    fn the_nearest_of_few_and_of_many_is_found() {
+        for count in [1, 2, 7, 12, 40] {
+            let aggregate = scattered(count);
+            let mut hits = 0;
+            for k in 0..2000 {
+                // From among them, so that some rays begin in spheres.
+                let mut ray = Ray::new(6.0 * unit(k), 6.0 * unit(10_000 + k) - 3.0);
+                ray.t_min = if k % 5 == 0 { 0.2 } else { 0.0 };
+                ray.t_max = if k % 7 == 0 { 1.5 } else { f64::INFINITY };
+                ray.direction.y = if k % 41 == 0 { 0.0 } else { ray.direction.y };
+                let all = aggregate.primitives().iter().zip(0..);
+                let met = all.filter_map(|(primitive, index)| Some((primitive.intersect(&ray)?.0, index)));
+                let nearest = met.min_by(|a, b| a.0.total_cmp(&b.0));
+                let found = aggregate.closest_hit(&ray);
+                assert_eq!(found.map(|hit| hit.primitive), nearest.map(|(_, index)| index), "{count}: {ray:?}");
+                assert_eq!(aggregate.occluded(&ray), nearest.is_some(), "{count}: {ray:?}");
+                if let (Some(found), Some((t, index))) = (found, nearest) {
+                    assert!((found.t - t).abs() < 1e-12 * (1.0 + t), "{count}: {ray:?}");
+                    let exact = aggregate.primitives()[index as usize].intersect(&ray).expect("it was met");
+                    assert!((found.u - exact.1).abs().max((found.v - exact.2).abs()) < 1e-11, "{count}: {ray:?}");
+                    hits += 1;
+                }
+            }
+            assert!(hits > 600, "{count}: {hits} hits");
+        }
+    }
+
+    #[test]
     fn eight_rays_together_find_what_each_finds_alone() {
-        let aggregate = scattered();
+        let aggregate = scattered(40);
         let (mut hits, mut hits_on_patches) = (0, 0);
         for k in 0..2000 {
             // From side by side to every which way.
@@ -353,7 +445,7 @@ mod tests {
 
     #[test]
     fn the_nearest_primitive_that_counts_is_found() {
-        let aggregate = scattered();
+        let aggregate = scattered(40);
         let mut closer_than_boxes = 0;
         for k in 0..200 {
             let from = 8.0 * unit(1000 + k) - 1.0;

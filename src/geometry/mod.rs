@@ -3,6 +3,7 @@
 mod aggregate;
 pub mod bezier;
 mod bvh;
+mod packets;
 mod plane;
 mod quad;
 mod sphere;

@@ -3,7 +3,7 @@ use glam::{DVec2, DVec3};
 
 /// How far outside its edges a quad still counts as hit, in units of (u, v): wider than the rounding of a hit, so
 /// that two quads that share an edge leave no gap between them.
-const EDGE_TOLERANCE: f64 = 1e-12;
+pub(super) const EDGE_TOLERANCE: f64 = 1e-12;
 
 /// A parallelogram, prepared for intersection.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +55,11 @@ impl Quad {
     /// The edges, which are the derivatives of the position.
     pub fn edges(&self) -> (DVec3, DVec3) {
         (self.edge_u, self.edge_v)
+    }
+
+    /// The vectors whose products with a point in the plane, relative to the corner, are its coordinates u and v.
+    pub(super) fn duals(&self) -> (DVec3, DVec3) {
+        (self.dual_u, self.dual_v)
     }
 
     /// In square scene units.
