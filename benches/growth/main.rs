@@ -9,8 +9,9 @@ use glam::DVec3;
 use patchlight::engine::Session;
 use patchlight::math::{Sampler, Stream};
 use patchlight::scene::{Emitter, Light, SceneFile, Shape};
-use patchlight::transport::{Cancel, Maps, PhotonMap, Plan, camera_pass, gather, global_photon_pass};
+use patchlight::transport::{CameraBatch, Cancel, Maps, PhotonMap, Plan, camera_pass, gather, global_photon_pass};
 use patchlight::world::prepare;
+use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -149,15 +150,19 @@ fn photons() {
     let world = prepare(&file.scene, &file.location, None).expect("the scene is whole");
     let mut plan = Plan::new(&world);
     const ITERATION: u64 = SMALL_ITERATIONS + 1;
-    let seen = camera_pass(&world, &plan, &(0..plan.camera.height), 1, ITERATION, Cancel::NEVER);
-    let seen = seen.expect("never cancelled");
+    let bands = plan.bands(ITERATION).into_par_iter();
+    let seen = bands.map(|rows| camera_pass(&world, &plan, &rows, 1, ITERATION, Cancel::NEVER));
+    let seen: Vec<CameraBatch> = seen.collect::<Option<_>>().expect("never cancelled");
     for paths in [10_000, 100_000, 1_000_000, 10_000_000] {
         plan.global_paths = vec![paths];
         let (photon_pass, batch) = seconds(|| global_photon_pass(&world, &plan, 1, ITERATION, Cancel::NEVER));
         let batch = batch.expect("never cancelled");
         let (build, global) = seconds(|| PhotonMap::build(&batch.photons));
         let maps = Maps { global, ..Maps::default() };
-        let (gather, _) = seconds(|| gather(&world, &plan, &maps, &seen.visible_points, ITERATION, Cancel::NEVER));
+        let gather = |batch: &CameraBatch| {
+            gather(&world, &plan, &maps, &batch.visible_points, ITERATION, Cancel::NEVER).expect("never cancelled").0
+        };
+        let (gather, _) = seconds(|| seen.par_iter().map(gather).collect::<Vec<_>>());
         let (count, megabytes) = (batch.photons.len(), maps.global.memory_bytes() >> 20);
         println!("| {paths} | {count} | {photon_pass:.3} | {build:.3} | {gather:.3} | {megabytes} MB |");
     }

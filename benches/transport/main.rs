@@ -11,6 +11,7 @@ use patchlight::transport::{
     Cancel, Photon, PhotonMap, Plan, Query, camera_pass, caustic_photon_pass, global_photon_pass,
 };
 use patchlight::world::{World, prepare};
+use rayon::prelude::*;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Duration;
@@ -87,8 +88,8 @@ fn passes(c: &mut Criterion) {
     group.throughput(Throughput::Elements(caustic.counters.caustic_paths));
     group.bench_function("caustics", |b| b.iter(|| caustic_photon_pass(&world, &plan, 1, ITERATION, Cancel::NEVER)));
     group.throughput(Throughput::Elements(4 * plan.camera.pixel_count() as u64));
-    let rows = 0..plan.camera.height;
-    group.bench_function("camera", |b| b.iter(|| camera_pass(&world, &plan, &rows, 1, ITERATION, Cancel::NEVER)));
+    let seen = |rows| camera_pass(&world, &plan, &rows, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
+    group.bench_function("camera", |b| b.iter(|| plan.bands(ITERATION).into_par_iter().map(seen).collect::<Vec<_>>()));
     group.finish();
 
     let mut group = few_samples(c, "photon map");

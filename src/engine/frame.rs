@@ -51,7 +51,8 @@ pub struct Stats {
     pub counters: Counters,
 }
 
-/// Wall-clock seconds by pass, over all iterations.
+/// Wall-clock seconds by pass, over all iterations. Camera and gather, which alternate, have each thread's part of the
+/// seconds that all threads spent on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassSeconds {
     /// Trees, textures and the plan, before the first iteration.

@@ -4,12 +4,10 @@ use crate::transport::{
     Cancel, Counters, Maps, PerMap, PhotonMap, Plan, Rows, camera_pass, caustic_photon_pass, gather, global_photon_pass,
 };
 use crate::world::World;
+use rayon::prelude::*;
 use std::time::Instant;
 
-/// Pixels whose visible points are kept at a time: some 20 MB of them.
-const PIXELS_PER_BAND: u32 = 1 << 17;
-
-/// One whole round of the algorithm.
+/// One whole round of the algorithm, for the film or a band of it.
 #[derive(Clone, Debug)]
 pub(super) struct Iteration {
     /// For each pixel.
@@ -42,31 +40,45 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     let built = [&maps.caustic, &maps.global, &maps.focused].into_iter().filter(|map| !map.is_empty()).count();
     counters.map_builds += built as u64;
 
-    let mut radiance = Vec::with_capacity(plan.camera.pixel_count());
-    let mut contrasts = vec![PerMap::default(); plan.camera.pixel_count()];
-    for rows in bands(plan) {
-        let seen = timed(&mut seconds.camera, || camera_pass(world, plan, &rows, seed, i, cancel))?;
-        let (gathered, gather_counters) =
-            timed(&mut seconds.gather, || gather(world, plan, &maps, &seen.visible_points, i, cancel))?;
-        counters += seen.counters;
-        counters += gather_counters;
-        radiance.extend_from_slice(&seen.radiance);
-        for (point, found) in seen.visible_points.iter().zip(&gathered) {
-            radiance[point.pixel as usize] += found.radiance;
-            contrasts[point.pixel as usize] += found.contrasts;
-        }
+    let bands = plan.bands(i).into_par_iter().map(|rows| render_band(world, plan, &maps, &rows, seed, i, cancel));
+    let bands: Vec<Iteration> = bands.collect::<Option<_>>()?;
+    let threads = rayon::current_num_threads() as f64;
+    for band in &bands {
+        counters += band.counters;
+        seconds.camera += band.seconds.camera / threads;
+        seconds.gather += band.seconds.gather / threads;
     }
+    let mut radiance = bands.iter().map(|band| band.radiance.as_slice()).collect::<Vec<_>>().concat();
+    let contrasts = bands.iter().map(|band| band.contrasts.as_slice()).collect::<Vec<_>>().concat();
     for splat in &caustic.splats {
         radiance[splat.pixel as usize] += splat.radiance;
     }
     Some(Iteration { radiance, contrasts, counters, seconds })
 }
 
-/// The film in bands of whole rows.
-fn bands(plan: &Plan) -> impl Iterator<Item = Rows> {
-    let height = plan.camera.height;
-    let rows = (PIXELS_PER_BAND / plan.camera.width).max(1);
-    (0..height).step_by(rows as usize).map(move |start| start..(start + rows).min(height))
+/// What the camera sees in some rows of the film.
+fn render_band(
+    world: &World,
+    plan: &Plan,
+    maps: &Maps,
+    rows: &Rows,
+    seed: u64,
+    i: u64,
+    cancel: Cancel,
+) -> Option<Iteration> {
+    let mut seconds = PassSeconds::default();
+    let seen = timed(&mut seconds.camera, || camera_pass(world, plan, rows, seed, i, cancel))?;
+    let (gathered, mut counters) =
+        timed(&mut seconds.gather, || gather(world, plan, maps, &seen.visible_points, i, cancel))?;
+    counters += seen.counters;
+    let (mut radiance, first) = (seen.radiance, rows.start * plan.camera.width);
+    let mut contrasts = vec![PerMap::default(); radiance.len()];
+    for (point, found) in seen.visible_points.iter().zip(&gathered) {
+        let place = (point.pixel - first) as usize;
+        radiance[place] += found.radiance;
+        contrasts[place] += found.contrasts;
+    }
+    Some(Iteration { radiance, contrasts, counters, seconds })
 }
 
 /// Runs a pass and adds its wall-clock time.

@@ -6,13 +6,12 @@ use super::direct::{self, Vertex};
 use super::medium::Media;
 use super::photon;
 use super::plan::{CAMERA_SAMPLES, Plan};
-use super::{Cancel, Rows, blocks};
+use super::{Cancel, Rows};
 use crate::geometry::{Hit, Primitive};
 use crate::math::{LANES, Ray, Rgb, Sampler, Stream, sobol};
 use crate::world::{Light, Lobe, Scattering, Surface, SurfacePoint, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3, Vec3};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Both sides of an interface are followed this often on a path; then one is chosen at random.
@@ -21,7 +20,7 @@ const FOLLOWED_SPLITS: u32 = 2;
 const WEAK_BRANCH: f32 = 0.02;
 /// Enough for two branches at each followed split and one continuation each.
 const MAX_BRANCHES: usize = 16;
-/// Rows and columns of a tile.
+/// Columns of a tile, whose rows are those of the pass.
 const TILE: u32 = 16;
 
 /// A point that the camera sees, directly or in mirrors and through glass, and that scatters light.
@@ -84,33 +83,12 @@ pub struct CameraBatch {
     pub counters: Counters,
 }
 
-/// The samples of an iteration for every pixel of some rows; `None` when cancelled.
+/// The samples of an iteration for every pixel of some rows, tile by tile: visible points that follow each other are near
+/// each other, and so are their photons. `None` when cancelled.
 pub fn camera_pass(
     world: &World,
     plan: &Plan,
     rows: &Rows,
-    seed: u64,
-    iteration: u64,
-    cancel: Cancel,
-) -> Option<CameraBatch> {
-    let strips: Vec<Rows> =
-        rows.clone().step_by(TILE as usize).map(|start| start..(start + TILE).min(rows.end)).collect();
-    let batches: Vec<CameraBatch> = strips
-        .into_par_iter()
-        .map(|strip| strip_pass(world, plan, strip, seed, iteration, cancel))
-        .collect::<Option<_>>()?;
-    Some(CameraBatch {
-        visible_points: blocks::join(&batches, |batch| &batch.visible_points),
-        radiance: blocks::join(&batches, |batch| &batch.radiance),
-        counters: batches.iter().map(|batch| batch.counters).sum(),
-    })
-}
-
-/// Some rows, tile by tile: visible points that follow each other are near each other, and so are their photons.
-fn strip_pass(
-    world: &World,
-    plan: &Plan,
-    rows: Rows,
     seed: u64,
     iteration: u64,
     cancel: Cancel,

@@ -23,9 +23,8 @@ use crate::world::{Lobe, SharedEdges, Surface, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3};
 use multiversion::multiversion;
-use rayon::prelude::*;
 
-/// Visible points of one piece of the pass.
+/// Visible points between two questions whether the pass is still wanted.
 const POINTS_PER_BLOCK: usize = 1024;
 /// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
 const MAX_PART_OF_SPHERE: f64 = 0.32;
@@ -49,30 +48,26 @@ pub fn gather(
     cancel: Cancel,
 ) -> Option<(Vec<Gathered>, Counters)> {
     let gatherer = Gatherer { world, plan, maps, iteration, shrink: plan.shrink(iteration) };
+    let mut stack = Stack::new();
     let sharing = gatherer.sharing(points);
-    let (irradiances, counters) = in_blocks(sharing.leading.par_chunks(POINTS_PER_BLOCK), cancel, |leading| {
-        irradiance_block(&gatherer, points, leading)
-    })?;
-    let blocks = points.par_chunks(POINTS_PER_BLOCK).zip(sharing.leader.par_chunks(POINTS_PER_BLOCK));
-    let (gathered, mut all_counters) =
-        in_blocks(blocks, cancel, |(points, leader)| gather_block(&gatherer, points, leader, &irradiances))?;
-    all_counters += counters;
-    Some((gathered, all_counters))
-}
-
-/// The results of all blocks in their order.
-fn in_blocks<B: Send, T: Copy + Send>(
-    blocks: impl IndexedParallelIterator<Item = B>,
-    cancel: Cancel,
-    work: impl Fn(B) -> (Vec<T>, Counters) + Sync,
-) -> Option<(Vec<T>, Counters)> {
-    let pieces: Vec<(Vec<T>, Counters)> = blocks
-        .map(|block| {
-            let result = work(block);
-            (!cancel.is_cancelled()).then_some(result)
-        })
-        .collect::<Option<_>>()?;
-    Some((super::blocks::join(&pieces, |(items, _)| items), pieces.iter().map(|(_, counters)| *counters).sum()))
+    let mut counters = Counters { global_gathers: sharing.leading.len() as u64, ..Counters::default() };
+    let mut irradiances = Vec::with_capacity(sharing.leading.len());
+    for leading in sharing.leading.chunks(POINTS_PER_BLOCK) {
+        irradiance_block(&gatherer, points, leading, &mut stack, &mut irradiances);
+        if cancel.is_cancelled() {
+            return None;
+        }
+    }
+    let mut gathered = Vec::with_capacity(points.len());
+    for (points, leader) in points.chunks(POINTS_PER_BLOCK).zip(sharing.leader.chunks(POINTS_PER_BLOCK)) {
+        let shared = leader.iter().map(|place| place.map(|place| irradiances[place as usize]));
+        let shared: ArrayVec<Option<Rgb>, POINTS_PER_BLOCK> = shared.collect();
+        gather_block(&gatherer, points, &shared, &mut stack, &mut counters, &mut gathered);
+        if cancel.is_cancelled() {
+            return None;
+        }
+    }
+    Some((gathered, counters))
 }
 
 struct Gatherer<'a> {
@@ -84,36 +79,47 @@ struct Gatherer<'a> {
     shrink: f64,
 }
 
-/// The irradiance of interreflection at those points that gather it for others too.
+/// Adds the irradiance of interreflection at those points that gather it for others too.
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn irradiance_block(gatherer: &Gatherer, points: &[VisiblePoint], leading: &[u32]) -> (Vec<Rgb>, Counters) {
-    let mut stack = Stack::new();
-    let counters = Counters { global_gathers: leading.len() as u64, ..Counters::default() };
-    let points = leading.iter().map(|&index| &points[index as usize]);
+fn irradiance_block(
+    gatherer: &Gatherer,
+    points: &[VisiblePoint],
+    leading: &[u32],
+    stack: &mut Stack,
+    irradiances: &mut Vec<Rgb>,
+) {
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = Avx2::try_new() {
-        return (points.map(|point| gatherer.shared_irradiance(avx2, point, &mut stack)).collect(), counters);
+        for &index in leading {
+            irradiances.push(gatherer.shared_irradiance(avx2, &points[index as usize], stack));
+        }
+        return;
     }
-    (points.map(|point| gatherer.shared_irradiance(Portable, point, &mut stack)).collect(), counters)
+    for &index in leading {
+        irradiances.push(gatherer.shared_irradiance(Portable, &points[index as usize], stack));
+    }
 }
 
-/// What is found at some points; where one has a leader, the irradiance of interreflection is the one found there.
+/// Adds what is found at some points; `shared` is the irradiance of interreflection where another one found it.
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 fn gather_block(
     gatherer: &Gatherer,
     points: &[VisiblePoint],
-    leader: &[Option<u32>],
-    irradiances: &[Rgb],
-) -> (Vec<Gathered>, Counters) {
-    let (mut stack, mut counters) = (Stack::new(), Counters::default());
-    let points = points.iter().zip(leader.iter().map(|place| place.map(|place| irradiances[place as usize])));
+    shared: &[Option<Rgb>],
+    stack: &mut Stack,
+    counters: &mut Counters,
+    gathered: &mut Vec<Gathered>,
+) {
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = Avx2::try_new() {
-        let found = points.map(|(point, shared)| gatherer.at(avx2, point, shared, &mut stack, &mut counters)).collect();
-        return (found, counters);
+        for (point, shared) in points.iter().zip(shared) {
+            gathered.push(gatherer.at(avx2, point, *shared, stack, counters));
+        }
+        return;
     }
-    let found = points.map(|(point, shared)| gatherer.at(Portable, point, shared, &mut stack, &mut counters)).collect();
-    (found, counters)
+    for (point, shared) in points.iter().zip(shared) {
+        gathered.push(gatherer.at(Portable, point, *shared, stack, counters));
+    }
 }
 
 impl Gatherer<'_> {

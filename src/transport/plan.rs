@@ -6,6 +6,7 @@ use super::guide::Guide;
 use super::light_choice::CHOSEN;
 use super::maps::MapKind;
 use super::schedule::{self, SMALLEST};
+use super::{Rows, sharing};
 use crate::geometry::Primitive;
 use crate::math::{Rgb, Stream};
 use crate::world::{Camera, Light, Lobe, Surface, World};
@@ -152,6 +153,11 @@ impl Plan {
         let limit = |radius: f64| footprint * widest.max(global(radius));
         let limits = Clearance { any: limit(self.global_radius), standing: limit(self.least_global_radius) };
         (self.gathers() && !self.is_draft).then_some(limits)
+    }
+
+    /// The film in bands of rows, whose paths from the camera and density estimates need nothing of each other.
+    pub fn bands(&self, iteration: u64) -> Vec<Rows> {
+        sharing::bands(self.camera.width, self.camera.height, iteration)
     }
 
     /// Whether caustics that the camera sees directly come from the map in this iteration.

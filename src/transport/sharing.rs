@@ -2,9 +2,9 @@
 //! neighbours take what it found. Which one that is and which neighbours take it changes from iteration to iteration, evenly
 //! to all sides: in the mean this blurs by less than a pixel, and shifts nothing.
 
+use super::Rows;
 use super::bandwidth::WIDER;
 use super::camera_pass::VisiblePoint;
-use rayon::prelude::*;
 
 /// A point is shared with others that are nearer than this part of the radius of its disc: the blur that this adds is small
 /// beside that of the disc.
@@ -43,6 +43,12 @@ impl Lattice {
         Self { width, remainder: [bit(0), bit(1)], forward: [bit(2) == 1, bit(3) == 1] }
     }
 
+    /// The remainder of the first row of each square of pixels that share.
+    fn first_row(&self) -> u32 {
+        // Rows that do not gather look for one in the next row, or in the one before.
+        self.remainder[1] ^ u32::from(self.forward[1])
+    }
+
     fn pixel(&self, index: u32) -> Pixel {
         (index % self.width, index / self.width)
     }
@@ -60,6 +66,19 @@ impl Lattice {
     }
 }
 
+/// Rows of a band, where the film has enough of them for all threads.
+const ROWS_OF_BAND: u32 = 16;
+/// Bands of a film, so that threads end at about the same time.
+const BANDS: u32 = 32;
+
+/// The film in bands of whole rows, which can be rendered apart: none parts pixels that share.
+pub(super) fn bands(width: u32, height: u32, iteration: u64) -> Vec<Rows> {
+    let rows = height.div_ceil(BANDS).next_multiple_of(SIDE).min(ROWS_OF_BAND);
+    let first = Lattice::new(width, iteration).first_row();
+    let ends = (1..).map(|k| first + k * rows).take_while(|&end| end < height).chain([height]);
+    ends.scan(0, |start, end| Some(std::mem::replace(start, end)..end)).collect()
+}
+
 impl Sharing {
     /// Every point gathers for itself alone.
     pub(super) fn none(points: usize) -> Self {
@@ -71,7 +90,7 @@ impl Sharing {
         width: u32,
         points: &[VisiblePoint],
         iteration: u64,
-        radius: impl Fn(&VisiblePoint) -> f64 + Sync,
+        radius: impl Fn(&VisiblePoint) -> f64,
     ) -> Self {
         let lattice = Lattice::new(width, iteration);
         let first = points.iter().map(|point| point.pixel).min().unwrap_or(0);
@@ -94,7 +113,7 @@ impl Sharing {
             let alike = leader.tag == point.tag && leader.n_side.dot(point.n_side) >= LEAST_COS;
             (pixel == point.pixel || (near && alike)).then_some(place)
         };
-        let leader = points.par_iter().map(leader_of).collect();
+        let leader = points.iter().map(leader_of).collect();
         Self { leading, leader }
     }
 }
@@ -125,6 +144,24 @@ mod tests {
         }
         // A tent: itself half of the time, each neighbour a quarter of it.
         assert_eq!(sums, [0, 0, 8, 8, 0]);
+    }
+
+    #[test]
+    fn bands_cover_the_film_and_part_no_pixels_that_share() {
+        for (height, iteration) in [1, 2, 7, 64, 255, 300, 2048].into_iter().flat_map(|h| (0..16).map(move |i| (h, i)))
+        {
+            let (width, lattice) = (3, Lattice::new(3, iteration));
+            let bands = bands(width, height, iteration);
+            assert!(bands.iter().all(|rows| rows.end <= height && (1..=17).contains(&rows.len())));
+            assert_eq!((bands[0].start, bands[bands.len() - 1].end), (0, height));
+            assert!(bands.windows(2).all(|pair| pair[0].end == pair[1].start));
+            for rows in &bands {
+                let leaders = rows.clone().filter_map(|row| lattice.leader(row * width + 1));
+                for leader in leaders.map(|leader| leader / width) {
+                    assert!(rows.contains(&leader) || leader == height, "{rows:?} {leader}, iteration {iteration}");
+                }
+            }
+        }
     }
 
     #[test]
