@@ -68,8 +68,7 @@ fn render_band(
 ) -> Option<Iteration> {
     let mut seconds = PassSeconds::default();
     let seen = timed(&mut seconds.camera, || camera_pass(world, plan, rows, seed, i, cancel))?;
-    let (gathered, mut counters) =
-        timed(&mut seconds.gather, || gather(world, plan, maps, &seen.visible_points, i, cancel))?;
+    let (gathered, mut counters) = timed(&mut seconds.gather, || gather(world, plan, maps, &seen, i, cancel))?;
     counters += seen.counters;
     let (mut radiance, first) = (seen.radiance, rows.start * plan.camera.width);
     let mut contrasts = vec![PerMap::default(); radiance.len()];

@@ -52,10 +52,25 @@ pub struct VisiblePoint {
     pub tag: u32,
     /// Scattering events that a photon may have behind it to be counted here.
     pub photon_bounces: u32,
+    /// Where its facets begin among those of the batch, if it has any.
+    pub first_facet: u32,
+    /// How many it has.
+    pub facets: u32,
     /// Whether nothing is between it and the camera.
     pub seen_directly: bool,
     /// Whether the camera sees it directly and photons are gathered nowhere else for its pixel.
     pub fills_pixel: bool,
+}
+
+/// What a path of a pixel met where others of its paths met the same surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Facet {
+    /// Shading unit normal on the seen side.
+    pub normal: Vec3,
+    /// Part reflected by Lambert's law.
+    pub albedo: Rgb,
+    /// First tag of the photons on the same surface and side.
+    pub tag: u32,
 }
 
 /// How far other objects are from a point, scene units, no more than matters for density estimates.
@@ -77,6 +92,8 @@ impl Clearance {
 pub struct CameraBatch {
     /// Where photons are to be gathered, tile by tile.
     pub visible_points: Vec<VisiblePoint>,
+    /// Of visible points on surfaces with relief maps: light is gathered once for all of a point's facets.
+    pub facets: Vec<Facet>,
     /// For each pixel of the rows the radiance found so far: emitted and direct light.
     pub radiance: Vec<Rgb>,
     /// What was done.
@@ -96,7 +113,15 @@ pub fn camera_pass(
     let width = plan.camera.width;
     let radiance = vec![Rgb::ZERO; rows.len() * width as usize];
     let batch = CameraBatch { radiance, ..CameraBatch::default() };
-    let mut walk = Walk { world, plan, batch, branches: ArrayVec::new(), gather_weight: 0.0 };
+    let mut walk = Walk {
+        world,
+        plan,
+        batch,
+        branches: ArrayVec::new(),
+        gather_weight: 0.0,
+        facets: ArrayVec::new(),
+        has_relief: false,
+    };
     for left in (0..width).step_by(TILE as usize) {
         if cancel.is_cancelled() {
             return None;
@@ -120,6 +145,10 @@ struct Walk<'a> {
     branches: ArrayVec<Branch, MAX_BRANCHES>,
     /// Weight of the present path's visible points in their pixel; it leaves none if this is 0.
     gather_weight: f32,
+    /// What the present pixel's paths met first.
+    facets: ArrayVec<Facet, { CAMERA_SAMPLES as usize }>,
+    /// Whether a relief map tilts any of them.
+    has_relief: bool,
 }
 
 /// A path as far as the first surface.
@@ -195,6 +224,9 @@ impl Walk<'_> {
         // Another place in the sequence each time: every n-th point of it would keep to a part of the pixel.
         let chosen = sobol::mix64(u64::from(pixel) ^ sobol::mix64(iteration)) % count;
         let mut radiance = Rgb::ZERO;
+        let first_point = self.batch.visible_points.len();
+        self.facets.clear();
+        self.has_relief = false;
         for (index, start) in (0..).zip(starts) {
             self.gather_weight = match (self.plan.gathers(), on_an_edge) {
                 (false, _) => 0.0,
@@ -204,6 +236,7 @@ impl Walk<'_> {
             radiance += self.trace_path(pixel, start);
         }
         radiance /= count as f32;
+        self.end_points(first_point, on_an_edge);
         if !self.plan.finds_direct_light {
             Rgb::ZERO
         } else if radiance.is_finite() {
@@ -211,6 +244,28 @@ impl Walk<'_> {
         } else {
             self.batch.counters.dropped_samples += 1;
             Rgb::ZERO
+        }
+    }
+
+    /// Completes the visible points of a pixel. Where its paths all met one surface first, what each of them saw of its texture
+    /// and its relief counts: one place in the pixel alone would be noise.
+    fn end_points(&mut self, first_point: usize, on_an_edge: bool) {
+        for k in (first_point..self.batch.visible_points.len()).rev() {
+            let point = &mut self.batch.visible_points[k];
+            if point.seen_directly && !on_an_edge {
+                let alike = self.facets.iter().filter(|facet| facet.tag == point.tag);
+                if self.has_relief {
+                    point.first_facet = self.batch.facets.len() as u32;
+                    self.batch.facets.extend(alike);
+                    point.facets = self.batch.facets.len() as u32 - point.first_facet;
+                } else {
+                    let count = alike.clone().count().max(1) as f32;
+                    point.scattering.albedo = alike.map(|facet| facet.albedo).sum::<Rgb>() / count;
+                }
+            }
+            if point.facets == 0 && !scatters(&point.scattering) {
+                self.batch.visible_points.swap_remove(k);
+            }
         }
     }
 
@@ -254,19 +309,24 @@ impl Walk<'_> {
             return Rgb::ZERO;
         }
         let (scattering, n_shade) = self.world.scattering(&point, material);
-        self.batch.counters.texture_lookups += u64::from(self.world.materials[material as usize].lookups());
+        let lookups = self.world.materials[material as usize].lookups();
+        self.batch.counters.texture_lookups += u64::from(lookups);
         let wo = -branch.ray.direction;
         let vertex = Vertex { point, scattering, n_side: point.n_side(), n_shade, wo };
-        let scatters = scattering.albedo != Rgb::ZERO || matches!(scattering.lobe, Lobe::Phong { .. });
+        let is_first = branch.bounces == 0;
+        if is_first && self.plan.gathers() {
+            let tag = photon::tag(object, point.front, 0);
+            self.facets.push(Facet { normal: n_shade.as_vec3(), albedo: scattering.albedo, tag });
+            self.has_relief |= n_shade != vertex.n_side;
+        }
         let mut radiance = Rgb::ZERO;
-        if scatters {
-            if self.plan.finds_direct_light {
-                let direct = direct::direct_light(self.world, &vertex, sampler, &mut self.batch.counters);
-                radiance = branch.throughput * direct;
-            }
-            if self.gather_weight > 0.0 {
-                self.batch.visible_points.push(self.visible_point(&branch, &vertex, pixel, object));
-            }
+        if scatters(&scattering) && self.plan.finds_direct_light {
+            let direct = direct::direct_light(self.world, &vertex, sampler, &mut self.batch.counters);
+            radiance = branch.throughput * direct;
+        }
+        // Where a texture is black, the rest of it in the pixel may not be.
+        if self.gather_weight > 0.0 && (scatters(&scattering) || (is_first && lookups > 0)) {
+            self.batch.visible_points.push(self.visible_point(&branch, &vertex, pixel, object));
         }
         self.branch_off(&branch, &vertex, material, sampler);
         radiance
@@ -289,6 +349,8 @@ impl Walk<'_> {
             uv: DVec2::new(vertex.point.hit.u, vertex.point.hit.v),
             tag: photon::tag(object, vertex.point.front, 0),
             photon_bounces: (self.world.max_bounces - branch.bounces - 1).min(photon::MAX_TAG_BOUNCES),
+            first_facet: 0,
+            facets: 0,
             seen_directly: branch.bounces == 0,
             fills_pixel: branch.bounces == 0 && self.gather_weight == 1.0,
         }
@@ -400,6 +462,11 @@ impl Branch {
             },
         }
     }
+}
+
+/// Whether a surface sends light to where no mirror would.
+fn scatters(scattering: &Scattering) -> bool {
+    scattering.albedo != Rgb::ZERO || matches!(scattering.lobe, Lobe::Phong { .. })
 }
 
 /// Light that the camera gets from a light's own surface.

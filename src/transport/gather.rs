@@ -3,7 +3,7 @@
 use super::Cancel;
 use super::bandwidth::WIDER;
 use super::bsdf;
-use super::camera_pass::VisiblePoint;
+use super::camera_pass::{CameraBatch, Facet, VisiblePoint};
 use super::counters::Counters;
 use super::kernel;
 use super::maps::{MapKind, Maps, PerMap};
@@ -43,11 +43,12 @@ pub fn gather(
     world: &World,
     plan: &Plan,
     maps: &Maps,
-    points: &[VisiblePoint],
+    seen: &CameraBatch,
     iteration: u64,
     cancel: Cancel,
 ) -> Option<(Vec<Gathered>, Counters)> {
-    let gatherer = Gatherer { world, plan, maps, iteration, shrink: plan.shrink(iteration) };
+    let points = seen.visible_points.as_slice();
+    let gatherer = Gatherer { world, plan, maps, facets: &seen.facets, iteration, shrink: plan.shrink(iteration) };
     let mut stack = Stack::new();
     let sharing = gatherer.sharing(points);
     let mut counters = Counters { global_gathers: sharing.leading.len() as u64, ..Counters::default() };
@@ -74,6 +75,7 @@ struct Gatherer<'a> {
     world: &'a World,
     plan: &'a Plan,
     maps: &'a Maps,
+    facets: &'a [Facet],
     iteration: u64,
     /// The factor of all radii, where none was measured.
     shrink: f64,
@@ -128,7 +130,7 @@ impl Gatherer<'_> {
         if self.maps.global.is_empty() {
             return Sharing::none(points.len());
         }
-        Sharing::new(self.plan.camera.width, points, self.iteration, |point| self.radius(MapKind::Global, point))
+        Sharing::new(self.plan.lattice(self.iteration), points, |point| self.radius(MapKind::Global, point))
     }
 
     #[inline(always)]
@@ -259,8 +261,11 @@ impl Gatherer<'_> {
         let is_glossy = kind == MapKind::Caustic && matches!(point.scattering.lobe, Lobe::Phong { .. });
         let Some(disc) = self.disc(point, view, radius) else { return Rgb::ZERO };
         let map = &self.maps[kind];
+        let facets = &self.facets[point.first_facet as usize..][..point.facets as usize];
         let reflected = if is_glossy {
             glossy_reflection(l, map, stack, point, &disc)
+        } else if !facets.is_empty() && disc.view.is_none() {
+            faceted_reflection(l, map, stack, facets, &disc)
         } else {
             irradiance(l, map, stack, point, &disc) * bsdf::eval_diffuse(&point.scattering)
         };
@@ -323,6 +328,13 @@ fn irradiance<L: Lanes>(l: L, map: &PhotonMap, stack: &mut Stack, point: &Visibl
         map.sum_flux(l, query, stack)
     };
     sum / *integral as f32
+}
+
+/// The density estimate of what the facets of a point reflect by Lambert's law, in the mean.
+#[inline(always)]
+fn faceted_reflection<L: Lanes>(l: L, map: &PhotonMap, stack: &mut Stack, facets: &[Facet], disc: &Disc) -> Rgb {
+    let sum = map.sum_faceted_flux(l, &disc.query, &disc.tilt, facets, stack);
+    sum * std::f32::consts::FRAC_1_PI / (facets.len() as f32 * disc.integral as f32)
 }
 
 /// The density estimate of what a point with a Phong lobe reflects.

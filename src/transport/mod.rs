@@ -40,7 +40,7 @@ mod visibility_polygon;
 
 pub use bandwidth::{Bandwidth, Contrasts};
 pub use bsdf::{Fresnel, fresnel};
-pub use camera_pass::{CameraBatch, VisiblePoint, camera_pass};
+pub use camera_pass::{CameraBatch, Facet, VisiblePoint, camera_pass};
 pub use caustic_pass::{CausticBatch, Splat, caustic_photon_pass};
 pub use component::Component;
 pub use counters::Counters;

@@ -1,12 +1,13 @@
 //! What a scene needs, decided before rendering, and why the rest is skipped.
 
+use super::Rows;
 use super::bandwidth::{Bandwidth, Contrasts, WIDER};
 use super::camera_pass::Clearance;
 use super::guide::Guide;
 use super::light_choice::CHOSEN;
 use super::maps::MapKind;
 use super::schedule::{self, SMALLEST};
-use super::{Rows, sharing};
+use super::sharing::Lattice;
 use crate::geometry::Primitive;
 use crate::math::{Rgb, Stream};
 use crate::world::{Camera, Light, Lobe, Surface, World};
@@ -157,7 +158,13 @@ impl Plan {
 
     /// The film in bands of rows, whose paths from the camera and density estimates need nothing of each other.
     pub fn bands(&self, iteration: u64) -> Vec<Rows> {
-        sharing::bands(self.camera.width, self.camera.height, iteration)
+        self.lattice(iteration).bands(self.camera.height)
+    }
+
+    /// Which pixels gather interreflection for others.
+    pub(super) fn lattice(&self, iteration: u64) -> Lattice {
+        let width = self.camera.width;
+        if self.is_draft { Lattice::draft(width) } else { Lattice::new(width, iteration) }
     }
 
     /// Whether caustics that the camera sees directly come from the map in this iteration.

@@ -11,5 +11,6 @@ mod glass;
 mod indirect_shadow;
 mod passes;
 mod plan;
+mod texture;
 #[cfg(feature = "gui")]
 mod window;

@@ -5,6 +5,7 @@
 
 mod build;
 
+use super::camera_pass::Facet;
 use super::photon::Photon;
 use super::tilt::Tilt;
 #[cfg(target_arch = "x86_64")]
@@ -160,6 +161,40 @@ impl PhotonMap {
             stack,
             #[inline(always)]
             |block: &Block, weight: L::Vector| sums = mul_add3(l, weight, load3(l, &block.flux), sums),
+        );
+        sum3(l, sums)
+    }
+
+    /// The same, each photon's flux times the sum of its factors by the facets, each times the facet's albedo.
+    #[inline(always)]
+    pub(super) fn sum_faceted_flux<L: Lanes>(
+        &self,
+        l: L,
+        query: &Query,
+        tilt: &Tilt,
+        facets: &[Facet],
+        stack: &mut Stack,
+    ) -> Rgb {
+        let mut sums = [l.splat(0.0); 3];
+        let side = splat3(l, query.normal);
+        self.visit::<L, false>(
+            l,
+            query,
+            stack,
+            #[inline(always)]
+            |photons: &Block, weight: L::Vector| {
+                let (wi, cos) = (load3(l, &photons.wi), l.load(&photons.cos));
+                let mut reflected = [l.splat(0.0); 3];
+                for facet in facets {
+                    let factors = Tilt { normal: facet.normal, ..*tilt }.factors(l, side, wi, cos);
+                    reflected = mul_add3(l, factors, splat3(l, facet.albedo), reflected);
+                }
+                let flux = load3(l, &photons.flux);
+                for channel in 0..3 {
+                    let part = l.mul(weight, flux[channel]);
+                    sums[channel] = l.mul_add(part, reflected[channel], sums[channel]);
+                }
+            },
         );
         sum3(l, sums)
     }
