@@ -69,8 +69,10 @@ pub struct Engine {
 /// Time that a draft should take: a frame of 30 Hz, less preparation and display.
 const DRAFT_SECONDS: f64 = 0.022;
 const COARSEST_DRAFT: f64 = 16.0;
-/// No finer draft takes longer: it would only keep the first whole picture waiting.
+/// No finer draft takes longer, but for the last one, which has all pixels and so is the first whole picture.
 const LONGEST_DRAFT_SECONDS: f64 = 0.12;
+/// If a draft with all pixels takes longer, a coarser one comes before it.
+const LONGEST_WAIT: f64 = 0.5;
 /// Frames of a converging picture come this far apart at least.
 const FRAME_INTERVAL: Duration = Duration::from_millis(60);
 
@@ -161,7 +163,7 @@ struct Worker {
     session: Option<Session>,
     /// Of the next first draft, from how long the last one took.
     coarseness: f64,
-    /// Of the next draft of the present scene; 1 or less when iterations are due.
+    /// Of the next draft of the present scene; 0 when iterations are due.
     next_draft: u32,
     last_frame: Option<Instant>,
 }
@@ -235,8 +237,8 @@ impl Worker {
         let (Some((generation, _)), Some(session)) = (&self.current, &mut self.session) else { return Ok(()) };
         let (generation, shared) = (*generation, &self.shared);
         let outdated = move || shared.is_outdated(generation);
-        if self.next_draft > 1 {
-            // Finer and finer drafts bridge the time that the first iteration takes.
+        if self.next_draft > 0 {
+            // Finer drafts bridge the time that the first iteration takes.
             let start = Instant::now();
             let draft = self.pool.install(|| session.draft(generation, self.next_draft, Cancel::when(&outdated)));
             self.next_draft = finer(self.next_draft, start.elapsed().as_secs_f64());
@@ -271,9 +273,16 @@ impl Worker {
     }
 }
 
-/// How coarse the draft after one is that took so long; 1 where there should be none.
+/// How coarse the draft after one is that took so long; 0 where there should be none.
 fn finer(coarseness: u32, seconds: f64) -> u32 {
-    if 4.0 * seconds <= LONGEST_DRAFT_SECONDS { coarseness / 2 } else { 1 }
+    // Time goes with the number of pixels; but in fine drafts fewer of them gather light apart.
+    let whole = 0.3 * seconds * f64::from(coarseness).powi(2);
+    match coarseness {
+        0 | 1 => 0,
+        // One that is twice as fine has four times the pixels.
+        _ if whole > LONGEST_WAIT && 4.0 * seconds <= LONGEST_DRAFT_SECONDS => coarseness / 2,
+        _ => 1,
+    }
 }
 
 fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {

@@ -5,7 +5,7 @@ use super::bandwidth::WIDER;
 use super::bsdf;
 use super::camera_pass::{CameraBatch, Facet, VisiblePoint};
 use super::counters::Counters;
-use super::kernel;
+use super::kernel::{self, Clipped};
 use super::maps::{MapKind, Maps, PerMap};
 use super::photon::Photon;
 use super::photon_map::{PhotonMap, Query, Stack};
@@ -133,16 +133,22 @@ impl Gatherer<'_> {
         Sharing::new(self.plan.lattice(self.iteration), points, |point| self.radius(MapKind::Global, point))
     }
 
+    /// The light that a point gathers for others too.
     #[inline(always)]
     fn shared_irradiance<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
-        // No closure: it would not get the vector instructions.
-        let radius = self.radius(MapKind::Global, point);
-        let Some(disc) = self.disc(point, None, radius) else { return Rgb::ZERO };
-        let irradiance = irradiance(l, &self.maps.global, stack, point, &disc);
-        if irradiance.is_finite() { irradiance } else { Rgb::ZERO }
+        let mut sum = Rgb::ZERO;
+        for kind in MapKind::ALL {
+            if self.shares(kind) && self.is_wanted(kind, point) {
+                let radius = self.radius(kind, point);
+                // No closure: it would not get the vector instructions.
+                let Some(disc) = self.disc(point, None, radius) else { continue };
+                sum += irradiance(l, &self.maps[kind], stack, point, &disc);
+            }
+        }
+        if sum.is_finite() { sum } else { Rgb::ZERO }
     }
 
-    /// What is found at a point; `shared` is the irradiance of interreflection where it is known.
+    /// What is found at a point; `shared` is the irradiance that another one found.
     #[inline(always)]
     fn at<L: Lanes>(
         &self,
@@ -153,6 +159,7 @@ impl Gatherer<'_> {
         counters: &mut Counters,
     ) -> Gathered {
         let mut found = Gathered::default();
+        let reflected = |irradiance: Rgb| point.throughput * irradiance * bsdf::eval_diffuse(&point.scattering);
         let radii: ArrayVec<(MapKind, f64), 3> = MapKind::ALL
             .into_iter()
             .filter(|kind| self.is_wanted(*kind, point))
@@ -163,9 +170,8 @@ impl Gatherer<'_> {
         let view = self.view(point, largest * if compares { WIDER } else { 1.0 }, counters);
         for (kind, radius) in radii {
             let light = match shared {
-                Some(irradiance) if kind == MapKind::Global => {
-                    point.throughput * irradiance * bsdf::eval_diffuse(&point.scattering)
-                }
+                Some(irradiance) if kind == MapKind::Global => reflected(irradiance),
+                Some(_) if self.shares(kind) => continue,
                 _ => {
                     let is_caustic = kind == MapKind::Caustic;
                     *(if is_caustic { &mut counters.caustic_gathers } else { &mut counters.global_gathers }) += 1;
@@ -186,12 +192,17 @@ impl Gatherer<'_> {
         }
     }
 
+    /// Whether points gather what is in a map for others: interreflection, in a draft also what of it was focused.
+    fn shares(&self, kind: MapKind) -> bool {
+        kind == MapKind::Global || (kind == MapKind::Focused && self.plan.is_draft())
+    }
+
     /// Whether a point needs what is in a map.
     fn is_wanted(&self, kind: MapKind, point: &VisiblePoint) -> bool {
         !self.maps[kind].is_empty()
             && match kind {
                 MapKind::Caustic => !point.seen_directly || self.plan.gathers_visible_caustics(self.iteration),
-                MapKind::Global | MapKind::Focused => point.scattering.albedo != Rgb::ZERO,
+                MapKind::Global | MapKind::Focused => point.scattering.albedo != Rgb::ZERO || point.facets > 0,
             }
     }
 
@@ -387,10 +398,13 @@ fn edge_kernel(
     if u.perp_dot(v).abs() <= 1e-9 * u.length() * v.length() {
         return whole;
     }
-    let Some(moments) = kernel::clipped_moments(-(point.uv.x * u) - point.uv.y * v, u, v, open, radius) else {
+    let Some(clipped) = Clipped::new(-(point.uv.x * u) - point.uv.y * v, u, v, open, radius) else {
         return whole;
     };
-    let (slope, integral) = moments.slope_and_integral(linear);
+    if !linear {
+        return (DVec3::ZERO, clipped.integral());
+    }
+    let (slope, integral) = clipped.moments().slope_and_integral(true);
     (slope.x * e0 + slope.y * e1, integral)
 }
 

@@ -81,6 +81,8 @@ const PART_OF_CLEARANCE: f64 = 0.5;
 const LEAST_PATHS: f64 = 16_384.0;
 /// More would make an iteration last longer than a user waits for the next frame.
 const MOST_PATHS: f64 = 524_288.0;
+/// Radius for interreflection in a draft, pixels' footprints.
+const DRAFT_RADIUS: f64 = 16.0;
 /// Photons a pixel from which on adding them to the film is better than a density estimate.
 const PHOTONS_PER_PIXEL_TO_SPLAT: f64 = 1.0;
 
@@ -113,24 +115,30 @@ impl Plan {
         }
     }
 
-    /// The plan for a first picture of bounded cost: every `coarseness`-th pixel each way, and fewer photons.
+    /// The plan for a first picture of bounded cost: every `coarseness`-th pixel each way, and fewer photons, in discs that
+    /// hold as many of them however many pixels there are.
     pub fn draft(&self, coarseness: u32) -> Self {
         let size = |pixels: u32| pixels.div_ceil(coarseness.max(1)).max(1);
         let camera = self.camera.resized(size(self.camera.width), size(self.camera.height));
         let pixels = camera.pixel_count() as f64;
         let fewer = |paths: &[u64], total: f64| share(paths.iter().map(|&p| p as f64).collect(), total);
+        let (caustic_paths, global_paths) = (pixels.clamp(4096.0, 32_768.0), (0.25 * pixels).clamp(1024.0, 8192.0));
+        let wider = |paths_per_pixel: f64, paths: f64| (paths_per_pixel * pixels / paths).sqrt().max(1.0);
+        let (caustic_wider, global_wider) = (wider(1.0, caustic_paths), wider(0.25, global_paths));
         let caustics = self.caustics.as_ref().map(|caustics| CausticPlan {
-            paths: fewer(&caustics.paths, pixels.clamp(4096.0, 32_768.0)),
+            paths: fewer(&caustics.paths, caustic_paths),
             gathered: f64::INFINITY,
             ..caustics.clone()
         });
         Self {
             camera,
             caustics,
-            global_paths: fewer(&self.global_paths, (0.25 * pixels).clamp(1024.0, 8192.0)),
-            least_global_radius: 12.0,
-            least_standing_radius: 12.0,
-            global_radius: 12.0,
+            global_paths: fewer(&self.global_paths, global_paths),
+            caustic_radius: caustic_wider * self.caustic_radius,
+            least_global_radius: DRAFT_RADIUS * global_wider,
+            least_standing_radius: DRAFT_RADIUS * global_wider,
+            global_radius: DRAFT_RADIUS * global_wider,
+            focused_radius: 0.75 * DRAFT_RADIUS * global_wider,
             largest_radius: 0.2,
             is_draft: true,
             bandwidth: None,
@@ -239,6 +247,11 @@ impl Plan {
     pub(super) fn paths(&self, count: u64, iteration: u64) -> Range<u64> {
         let start = (count as f64 * schedule::size_before(iteration)) as u64;
         start..start + (count as f64 * self.weight(iteration)) as u64
+    }
+
+    /// Whether it is for a quick first picture.
+    pub(super) fn is_draft(&self) -> bool {
+        self.is_draft
     }
 
     /// Whether anything is gathered at visible points.

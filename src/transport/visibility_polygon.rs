@@ -136,7 +136,7 @@ fn at_diamond_angle(angle: f64) -> DVec2 {
 mod tests {
     use super::*;
     use crate::scene::{Location, SceneFile};
-    use crate::transport::kernel::clipped_moments;
+    use crate::transport::kernel::Clipped;
     use crate::world::prepare;
 
     /// A floor of 2 x 2 about the origin, and screens that stand on it along x = 0.2 and along its edge x = 1.
@@ -171,9 +171,11 @@ mod tests {
             assert_eq!(view.holds(DVec3::new(x, 0.0, z)), seen, "({x}, {z})");
         }
         // The same as a floor that ends there, but for the corners between two directions.
-        let ends = clipped_moments(DVec2::new(-1.0, -1.0), DVec2::new(1.2, 0.0), DVec2::new(0.0, 2.0), [false; 4], 0.5);
-        let ((_, found), (_, expected)) =
-            (view.moments(0.5).slope_and_integral(false), ends.expect("the disc is clipped").slope_and_integral(false));
+        let ends = Clipped::new(DVec2::new(-1.0, -1.0), DVec2::new(1.2, 0.0), DVec2::new(0.0, 2.0), [false; 4], 0.5);
+        let ((_, found), (_, expected)) = (
+            view.moments(0.5).slope_and_integral(false),
+            ends.expect("the disc is clipped").moments().slope_and_integral(false),
+        );
         assert!((found / expected - 1.0).abs() < 0.03, "{found} against {expected}");
     }
 
