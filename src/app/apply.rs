@@ -44,6 +44,10 @@ impl Editor {
                 self.choose(ctx, Purpose::ExportSurface);
             }
             AppCommand::Theme(theme) => ctx.set_theme(theme),
+            AppCommand::Target(target) => {
+                self.rendering.target = target;
+                self.outbox.push(engine::Command::Target(target));
+            }
         }
     }
 

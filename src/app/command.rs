@@ -33,6 +33,8 @@ pub(crate) enum AppCommand {
     TypePath,
     /// Close the dialog that is shown.
     CloseDialog,
+    /// Rest once the error estimate is no more than this; `None`: never.
+    Target(Option<f64>),
     /// Choose a file for the surface, with so many quads along each side of a patch.
     ExportSurface(NonZeroUsize),
     /// Light or dark.

@@ -65,6 +65,7 @@ impl Editor {
             checked: None,
             rendered: None,
         };
+        editor.outbox.push(engine::Command::Target(editor.rendering.target));
         editor.send_scene();
         editor
     }

@@ -4,6 +4,9 @@ use super::panels::ErrorCurve;
 use crate::engine::{Frame, Status};
 use std::sync::Arc;
 
+/// Beyond what eyes can tell; a computer that is left alone should not work for more.
+const FIRST_TARGET: f64 = 0.001;
+
 /// The newest frame and what is known of the work on the next.
 #[derive(Debug)]
 pub(crate) struct Rendering {
@@ -11,12 +14,20 @@ pub(crate) struct Rendering {
     status: Status,
     /// What was asked for; the engine pauses after the iteration at hand.
     pub(crate) paused: bool,
+    /// Of the error estimate: at it the engine rests.
+    pub(crate) target: Option<f64>,
     curve: ErrorCurve,
 }
 
 impl Default for Rendering {
     fn default() -> Self {
-        Self { frame: None, status: Status::Idle, paused: false, curve: ErrorCurve::default() }
+        Self {
+            frame: None,
+            status: Status::Idle,
+            paused: false,
+            target: Some(FIRST_TARGET),
+            curve: ErrorCurve::default(),
+        }
     }
 }
 

@@ -37,6 +37,7 @@ fn status_text(ui: &Ui, rendering: &Rendering) -> (&'static str, Color32) {
         Status::Rendering if rendering.paused => ("Pausing after this iteration", palette.warning),
         Status::Rendering => ("Rendering", palette.success),
         Status::Paused => ("Paused", palette.warning),
+        Status::Converged => ("Converged", palette.success),
         Status::Failed(_) => ("Failed", palette.error),
     }
 }

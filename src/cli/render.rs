@@ -59,8 +59,7 @@ fn is_spent(budget: &Budget, session: &Session, last: f64) -> bool {
         return iterations >= limit;
     }
     if let Some(limit) = budget.error {
-        // A black picture never has an estimate, and no error either.
-        return iterations >= 2 && session.stats().error_estimate.is_none_or(|estimate| estimate <= limit);
+        return session.reaches(limit);
     }
     session.seconds() + last > budget.seconds.unwrap_or(DEFAULT_SECONDS)
 }

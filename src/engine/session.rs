@@ -122,6 +122,12 @@ impl Session {
         self.film.iterations()
     }
 
+    /// Whether the estimate of the error is known, and no more than this. A black picture never has an estimate, and no error
+    /// either.
+    pub fn reaches(&self, error: f64) -> bool {
+        self.iterations() >= 2 && self.film.error_estimate().is_none_or(|estimate| estimate <= error)
+    }
+
     /// Seconds that iterations took.
     pub fn seconds(&self) -> f64 {
         self.seconds

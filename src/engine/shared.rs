@@ -11,6 +11,8 @@ pub(super) struct Wanted {
     /// Begin the present scene again, under this generation.
     pub(super) restart: Option<u64>,
     pub(super) paused: bool,
+    /// Of the error estimate, below which there is nothing left to do.
+    pub(super) target: Option<f64>,
     pub(super) quit: bool,
 }
 

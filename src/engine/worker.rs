@@ -31,6 +31,8 @@ pub enum Command {
     Resume,
     /// Begin the present scene again.
     Restart,
+    /// Rest once the error estimate is no more than this; `None`: go on for ever.
+    Target(Option<f64>),
 }
 
 /// What the engine does.
@@ -44,6 +46,8 @@ pub enum Status {
     Rendering,
     /// Waits to go on.
     Paused,
+    /// Rests: the error estimate is no more than what was asked for.
+    Converged,
     /// The scene can't be rendered, for this reason; another one may.
     Failed(String),
 }
@@ -111,6 +115,7 @@ impl Engine {
             }
             Command::Pause => wanted.paused = true,
             Command::Resume => wanted.paused = false,
+            Command::Target(target) => wanted.target = target,
         }
         drop(wanted);
         self.wake();
@@ -168,19 +173,33 @@ struct Worker {
     last_frame: Option<Instant>,
 }
 
+/// What the caller wants all along.
+struct Wishes {
+    quit: bool,
+    paused: bool,
+    target: Option<f64>,
+}
+
 impl Worker {
     fn run(mut self) {
         loop {
-            let (quit, paused) = self.take_wanted();
+            let Wishes { quit, paused, target } = self.take_wanted();
             if quit {
                 return;
             }
-            // An edit while paused still gets one whole iteration: a coarse draft would stay otherwise.
-            if self.session.as_ref().is_none_or(|session| paused && session.iterations() > 0) {
+            let rest = match &self.session {
+                // An edit while paused still gets one whole iteration: a coarse draft would stay otherwise.
+                Some(session) if session.iterations() > 0 && paused => Some(Status::Paused),
+                Some(session) if target.is_some_and(|error| session.reaches(error)) => Some(Status::Converged),
+                Some(_) => None,
+                // Idle or failed, as it is.
+                None => Some(self.shared.status()),
+            };
+            if let Some(status) = rest {
                 // Once: a call to wake up may be left from before.
-                if self.session.is_some() && self.shared.status() != Status::Paused {
+                if self.shared.status() != status {
                     self.publish_if(|iterations| iterations > 0);
-                    self.shared.set_status(Status::Paused);
+                    self.shared.set_status(status);
                 }
                 // An error means that the engine is gone; `quit` is set then.
                 let _woken = self.woken.recv();
@@ -191,10 +210,10 @@ impl Worker {
         }
     }
 
-    /// Takes over what the caller wants; returns whether to quit and whether to pause.
-    fn take_wanted(&mut self) -> (bool, bool) {
+    /// Takes over what the caller wants.
+    fn take_wanted(&mut self) -> Wishes {
         let mut wanted = self.shared.wanted();
-        let (quit, paused) = (wanted.quit, wanted.paused);
+        let wishes = Wishes { quit: wanted.quit, paused: wanted.paused, target: wanted.target };
         let restart = wanted.restart.take();
         let scene = wanted.scene.take();
         drop(wanted);
@@ -203,11 +222,11 @@ impl Worker {
             (None, Some(generation), Some((_, scene))) => Some((generation, scene.clone())),
             _ => None,
         };
-        if let (Some(next), false) = (next, quit) {
+        if let (Some(next), false) = (next, wishes.quit) {
             self.current = Some(next);
             self.guarded(Self::begin);
         }
-        (quit, paused)
+        wishes
     }
 
     /// Prepares the current scene and shows a draft of it.

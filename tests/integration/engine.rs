@@ -96,6 +96,29 @@ fn pause_holds_and_restart_begins_again() {
 }
 
 #[test]
+fn a_picture_that_is_good_enough_costs_nothing_until_something_changes() {
+    let engine = engine();
+    engine.send(Command::Target(Some(0.2)));
+    engine.send(Command::Show(room(0.5)));
+    let converged = || wait_for(|| (engine.status() == Status::Converged).then(|| engine.newest_frame()));
+    let error = |frame: &Frame| frame.stats.error_estimate.expect("it is known");
+    let rough = converged().expect("the last frame shows what was reached");
+    assert!(error(&rough) <= 0.2, "{}", error(&rough));
+    std::thread::sleep(Duration::from_millis(100));
+    assert!(engine.newest_frame().is_none(), "nothing comes while it rests");
+    let finer = 0.5 * error(&rough);
+    engine.send(Command::Target(Some(finer)));
+    let fine = frame_where(&engine, |frame| error(frame) <= finer);
+    assert!(fine.generation == rough.generation && fine.iteration > rough.iteration, "it goes on where it rested");
+    converged();
+    engine.send(Command::Show(room(0.6)));
+    frame_where(&engine, |frame| frame.generation == 2 && !frame.draft);
+    converged();
+    engine.send(Command::Target(None));
+    frame_where(&engine, |frame| frame.iteration > fine.iteration);
+}
+
+#[test]
 fn an_edit_while_paused_gets_one_iteration() {
     let engine = paused_engine();
     engine.send(Command::Show(room(0.6)));

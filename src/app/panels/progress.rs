@@ -9,8 +9,8 @@ use crate::app::edit::Edit;
 use crate::app::rendering::Rendering;
 use crate::app::theme;
 use crate::engine::{PassSeconds, Stats};
-use egui::{CollapsingHeader, Grid, Ui};
-use egui_plot::{GridInput, GridMark, Line, Plot, PlotPoints, Points};
+use egui::{CollapsingHeader, DragValue, Grid, Ui};
+use egui_plot::{GridInput, GridMark, HLine, Line, Plot, PlotPoints, Points};
 
 /// Points of the curve kept at most; then every second goes.
 const CURVE_POINTS: usize = 512;
@@ -60,8 +60,9 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
         return;
     };
     counts_ui(ui, frame.iteration, &frame.stats);
+    target_ui(ui, rendering.target, commands);
     ui.add_space(4.0);
-    curve_ui(ui, rendering.error_curve());
+    curve_ui(ui, rendering.error_curve(), rendering.target);
     CollapsingHeader::new("Time per iteration").default_open(true).show(ui, |ui| passes_ui(ui, &frame.stats));
     CollapsingHeader::new("Plan").default_open(false).show(ui, |ui| plan_ui(ui, &frame.plan));
 }
@@ -99,9 +100,28 @@ fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {
     });
 }
 
-fn curve_ui(ui: &mut Ui, curve: &ErrorCurve) {
+/// In percent; 0 is none.
+fn target_ui(ui: &mut Ui, target: Option<f64>, commands: &mut Vec<AppCommand>) {
+    let mut percent = 100.0 * target.unwrap_or(0.0);
+    ui.horizontal(|ui| {
+        let label = ui.weak("Rest at");
+        let field = DragValue::new(&mut percent)
+            .range(0.0..=100.0)
+            .speed(0.01)
+            .max_decimals(3)
+            .custom_formatter(|percent, _| if percent > 0.0 { format!("{percent} %") } else { "never".to_owned() })
+            .custom_parser(|text| text.trim().trim_end_matches('%').trim().parse().ok());
+        let field = ui.add(field).labelled_by(label.id);
+        if field.on_hover_text("Rendering rests once the error estimate is no more than this; 0: never").changed() {
+            commands.push(AppCommand::Target((percent > 0.0).then_some(0.01 * percent)));
+        }
+    });
+}
+
+fn curve_ui(ui: &mut Ui, curve: &ErrorCurve, target: Option<f64>) {
     let known = !curve.points.is_empty();
     let color = theme::palette(ui.visuals().dark_mode).plot;
+    let target_color = ui.visuals().weak_text_color();
     let line = Line::new("error", PlotPoints::from(curve.points.clone())).color(color).width(2.0);
     // The first measurement is no line yet.
     let newest = PlotPoints::from(curve.points.last().copied().into_iter().collect::<Vec<_>>());
@@ -122,6 +142,13 @@ fn curve_ui(ui: &mut Ui, curve: &ErrorCurve) {
     plot.show(ui, |plot| {
         plot.line(line);
         plot.points(newest);
+        // Only where it is near: else it would press the curve flat.
+        let lowest = curve.points.last().map(|point| point[1]);
+        if let (Some(lowest), Some(target)) = (lowest, target.map(f64::log10).filter(|target| target.is_finite()))
+            && target > lowest - 0.5
+        {
+            plot.hline(HLine::new("target", target).color(target_color).width(1.0));
+        }
     });
     ui.weak(if known { "Error over time, logarithmic" } else { "No error estimate yet" });
 }

@@ -74,3 +74,25 @@ fn a_picture_of_another_scene_is_dimmed() {
     assert_ne!(tint(&ui), egui::Color32::WHITE, "it is not the scene's");
     assert_eq!(ui.state().canvas.placement, place, "the message lies over it and moves nothing");
 }
+
+#[test]
+fn the_target_of_the_error_is_set_in_the_panel_and_reached() {
+    let mut ui = open("cornell");
+    ui.state_mut().receive(Some(frame(1, false, 8)), Status::Rendering);
+    ui.run_steps(2);
+    ui.state_mut().outbox.clear();
+    let field = |ui: &Ui| ui.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Rest at").rect().center();
+    let at = field(&ui);
+    ui.drag_at(at);
+    ui.run_steps(2);
+    ui.hover_at(at + egui::vec2(40.0, 0.0));
+    ui.run_steps(2);
+    ui.drop_at(at + egui::vec2(40.0, 0.0));
+    ui.run_steps(2);
+    let target = ui.state().rendering.target.expect("there is one");
+    assert!(target > 0.002, "0.001 in the beginning, dragged to {target}");
+    assert!(matches!(ui.state().outbox.last(), Some(Command::Target(Some(sent))) if *sent == target));
+    ui.state_mut().receive(None, Status::Converged);
+    ui.run_steps(2);
+    assert!(ui.query_by_label("Converged").is_some());
+}

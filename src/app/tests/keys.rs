@@ -8,6 +8,7 @@ fn commands(ui: &mut Ui) -> Vec<&'static str> {
         Command::Pause => "pause",
         Command::Resume => "resume",
         Command::Restart => "restart",
+        Command::Target(_) => "target",
     };
     ui.state_mut().outbox.drain(..).map(name).collect()
 }
@@ -15,7 +16,7 @@ fn commands(ui: &mut Ui) -> Vec<&'static str> {
 #[test]
 fn space_pauses_and_resumes_and_r_restarts() {
     let mut ui = open("cornell");
-    assert_eq!(commands(&mut ui), ["show"], "rendering begins at once");
+    assert_eq!(commands(&mut ui), ["target", "show"], "rendering begins at once");
     ui.key_press(Key::Space);
     ui.run_steps(2);
     assert_eq!(commands(&mut ui), ["pause"]);
