@@ -2,6 +2,8 @@
 
 mod error;
 mod exr;
+#[cfg(feature = "flip")]
+mod flip;
 mod image;
 mod metrics;
 mod png;
@@ -10,6 +12,8 @@ mod tone;
 pub use self::exr::{read_exr, write_exr};
 pub use self::image::LinearImage;
 pub use error::ImageError;
+#[cfg(feature = "flip")]
+pub use flip::{flip, mean_inside};
 pub use metrics::{Errors, compare};
 pub use png::{Mask, write_png};
 pub use tone::ToneMap;

@@ -3,11 +3,11 @@ use super::measurement::Measurement;
 /// Everything that was measured, for other programs. What is outside a mask that is not there stays empty.
 pub(super) fn csv(rows: &[Measurement]) -> String {
     let mut text = "seed,mark,seconds,iterations,photons,rays,dropped,rmse,rel_mse,rmse_trimmed,rel_mse_trimmed,\
-                    rmse_outside,rel_mse_outside,mean_ratio_r,mean_ratio_g,mean_ratio_b,estimate_over_error,\
+                    rmse_outside,rel_mse_outside,flip,flip_outside,mean_ratio_r,mean_ratio_g,mean_ratio_b,estimate_over_error,\
                     camera,photons_pass,map,gather,commit\n"
         .to_owned();
     for row in rows {
-        let Measurement { seed, mark, stats, errors, outside } = row;
+        let Measurement { seed, mark, stats, errors, outside, flip, flip_outside } = row;
         let counts = [stats.iterations, stats.photons_emitted, stats.rays, stats.dropped_samples];
         let [r, g, b] = errors.mean_ratio;
         let passes = &stats.passes;
@@ -18,6 +18,8 @@ pub(super) fn csv(rows: &[Measurement]) -> String {
             Some(errors.rel_mse_trimmed),
             outside.map(|e| e.rmse),
             outside.map(|e| e.rel_mse),
+            *flip,
+            *flip_outside,
             Some(r),
             Some(g),
             Some(b),

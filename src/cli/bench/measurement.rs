@@ -11,6 +11,10 @@ pub(super) struct Measurement {
     pub(super) errors: Errors,
     /// Of the pixels outside the mask, where there is one.
     pub(super) outside: Option<Errors>,
+    /// How different the pictures look, 0 to 1, where the program can tell.
+    pub(super) flip: Option<f64>,
+    /// The same outside the mask.
+    pub(super) flip_outside: Option<f64>,
 }
 
 impl Measurement {

@@ -17,6 +17,8 @@ pub(super) struct Median {
     pub(super) errors: Pair,
     /// Of the pixels outside the mask, where there is one.
     pub(super) outside: Option<Pair>,
+    /// How different the pictures look, where it was measured.
+    pub(super) flip: Option<f64>,
     /// Of [`Measurement::estimate_over_error`].
     pub(super) estimate_over_error: Option<f64>,
 }
@@ -32,12 +34,14 @@ pub(super) fn medians(rows: &[Measurement]) -> Vec<Median> {
 fn at_mark(mark: f64, rows: &[Measurement]) -> Median {
     let rows: Vec<_> = rows.iter().filter(|row| row.mark == mark).collect();
     let outside: Vec<_> = rows.iter().filter_map(|row| row.outside).collect();
+    let flips: Vec<_> = rows.iter().filter_map(|row| row.flip).collect();
     let estimates: Vec<_> = rows.iter().filter_map(|row| row.estimate_over_error()).collect();
     Median {
         mark,
         seconds: median(rows.iter().map(|row| row.stats.seconds)),
         errors: pair(rows.iter().map(|row| row.errors)),
         outside: (!outside.is_empty()).then(|| pair(outside.into_iter())),
+        flip: (!flips.is_empty()).then(|| median(flips.into_iter())),
         estimate_over_error: (!estimates.is_empty()).then(|| median(estimates.into_iter())),
     }
 }
@@ -84,12 +88,15 @@ mod tests {
             stats: Stats { seconds, ..Stats::default() },
             errors: Errors { rmse, ..errors },
             outside: Some(Errors { rel_mse: 2.0 * rmse, ..errors }),
+            flip: Some(0.1 * rmse),
+            flip_outside: None,
         };
         let rows = [row(0, 1.0, 0.9, 4.0), row(0, 2.0, 1.9, 1.0), row(1, 1.0, 0.7, 6.0), row(1, 2.0, 1.7, 2.0)];
         let medians = medians(&rows);
         assert_eq!(medians.iter().map(|m| m.mark).collect::<Vec<_>>(), [1.0, 2.0]);
         assert!((medians[0].seconds - 0.8).abs() < 1e-12);
         assert_eq!((medians[0].errors.rmse, medians[1].errors.rmse), (5.0, 1.5));
+        assert_eq!(medians[0].flip, Some(0.5));
         assert_eq!(medians[1].outside, Some(Pair { rmse: 0.0, rel_mse: 3.0 }));
     }
 }

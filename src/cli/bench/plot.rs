@@ -172,7 +172,7 @@ mod tests {
         let black = LinearImage::black(1, 1);
         let errors = Errors { rmse, rel_mse: rmse * rmse, ..compare(&black, &black, None).unwrap() };
         let stats = Stats { seconds, ..Stats::default() };
-        Measurement { seed, mark: seconds, stats, errors, outside: None }
+        Measurement { seed, mark: seconds, stats, errors, outside: None, flip: None, flip_outside: None }
     }
 
     /// All pixels of a colour below the head.

@@ -39,6 +39,7 @@ mod tests {
             seconds: mark,
             errors: Pair { rmse, rel_mse: rmse * rmse },
             outside: None,
+            flip: None,
             estimate_over_error: None,
         }
     }

@@ -97,7 +97,15 @@ mod tests {
         let errors = compare(&black, &black, None).unwrap();
         let stats = Stats { seconds: mark, ..Stats::default() };
         let with = |rmse| Errors { rmse, rel_mse: rmse * rmse, ..errors };
-        Measurement { seed, mark, stats, errors: with(rmse), outside: outside.map(with) }
+        Measurement {
+            seed,
+            mark,
+            stats,
+            errors: with(rmse),
+            outside: outside.map(with),
+            flip: None,
+            flip_outside: None,
+        }
     }
 
     #[test]

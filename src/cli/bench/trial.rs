@@ -52,7 +52,8 @@ impl Trial {
             last = advance_until(&mut session, last, *mark);
             let frame = session.frame(0);
             let (errors, outside) = self.truth.errors(&frame.image)?;
-            let row = Measurement { seed, mark: *mark, stats: frame.stats, errors, outside };
+            let (flip, flip_outside) = self.truth.flip(&frame.image, &self.file.scene.film);
+            let row = Measurement { seed, mark: *mark, stats: frame.stats, errors, outside, flip, flip_outside };
             writeln!(stdout(), "{}", table::line(&row))?;
             rows.push(row);
         }

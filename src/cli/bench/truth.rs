@@ -1,4 +1,5 @@
 use crate::film::{Errors, ImageError, LinearImage, Mask, compare};
+use crate::scene::Film;
 
 /// What pictures are compared with.
 pub(super) struct Truth {
@@ -35,6 +36,21 @@ impl Truth {
             None => Ok((errors(None)?, None)),
             Some((mask, others)) => Ok((errors(Some(mask))?, Some(errors(Some(others))?))),
         }
+    }
+
+    /// How different the picture looks as this film shows it, inside and outside the mask; `None` without the feature `flip`.
+    #[cfg(feature = "flip")]
+    pub(super) fn flip(&self, image: &LinearImage, film: &Film) -> (Option<f64>, Option<f64>) {
+        use crate::film::{ToneMap, flip, mean_inside};
+        let differences = flip(image, &self.reference, &ToneMap::new(film.exposure, film.tone_curve));
+        let inside = mean_inside(&differences, self.masks.as_ref().map(|(mask, _)| mask));
+        (Some(inside), self.masks.as_ref().map(|(_, others)| mean_inside(&differences, Some(others))))
+    }
+
+    /// `None`: it takes the feature `flip`.
+    #[cfg(not(feature = "flip"))]
+    pub(super) fn flip(&self, _: &LinearImage, _: &Film) -> (Option<f64>, Option<f64>) {
+        (None, None)
     }
 }
 

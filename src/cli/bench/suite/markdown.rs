@@ -10,26 +10,31 @@ use crate::cli::{
 pub(super) fn table(runs: &[(String, Vec<Median>)], threads: usize) -> String {
     let masked = runs.iter().flat_map(|(_, medians)| medians).any(|median| median.outside.is_some());
     let outside = |text: String| if masked { text } else { String::new() };
+    let has_flip = runs.iter().flat_map(|(_, medians)| medians).any(|median| median.flip.is_some());
+    let flip = |text: String| if has_flip { text } else { String::new() };
     let threads = counted(threads as u64, "thread");
     let mut text = format!(
         "Medians over the seeds of each run, on {threads}. The seconds are those of the iterations that end before the \
          mark, or of the first one. A slope is the power of time like which an error falls in the last two octaves. The estimate is \
          that of the RMSE without the reference.\n\n\
-         | scene | mark | seconds | RMSE | relMSE |{} estimate over RMSE | slope of RMSE | slope of relMSE |\n\
-         |---|--:|--:|--:|--:|{}--:|--:|--:|\n",
+         | scene | mark | seconds | RMSE | relMSE |{}{} estimate over RMSE | slope of RMSE | slope of relMSE |\n\
+         |---|--:|--:|--:|--:|{}{}--:|--:|--:|\n",
         outside(" RMSE outside the mask | relMSE outside the mask |".to_owned()),
+        flip(" FLIP |".to_owned()),
         outside("--:|--:|".to_owned()),
+        flip("--:|".to_owned()),
     );
     for (name, medians) in runs {
         for (k, median) in medians.iter().enumerate() {
             let is_last = k + 1 == medians.len();
             let slopes = slopes(medians).filter(|_| is_last);
             text += &format!(
-                "| {name} | {} | {:.2} | {} |{} {} | {} |\n",
+                "| {name} | {} | {:.2} | {} |{}{} {} | {} |\n",
                 median.mark,
                 median.seconds,
                 errors(median.errors),
                 outside(format!(" {} |", median.outside.map_or("|".to_owned(), errors))),
+                flip(format!(" {} |", median.flip.map_or(String::new(), |flip| format!("{flip:.4}")))),
                 median.estimate_over_error.map_or(String::new(), |ratio| format!("{ratio:.2}")),
                 slopes.map_or("|".to_owned(), |s| format!("{:.2} | {:.2}", s.rmse, s.rel_mse)),
             );
@@ -53,6 +58,7 @@ mod tests {
             seconds: mark,
             errors: pair(rmse),
             outside: outside.map(pair),
+            flip: outside,
             estimate_over_error: outside.map(|_| 1.25),
         }
     }
@@ -81,7 +87,10 @@ mod tests {
         ];
         let text = table(&runs, 2);
         let bars: Vec<_> = text.lines().skip(2).map(|line| line.matches('|').count()).collect();
-        assert_eq!(bars, [11; 5], "{text}");
-        assert!(text.contains("| b | 1 | 1.00 | 0.50000 | 2.50e-1 | 0.10000 | 1.00e-2 | 1.25 | | |\n"), "{text}");
+        assert_eq!(bars, [12; 5], "{text}");
+        assert!(
+            text.contains("| b | 1 | 1.00 | 0.50000 | 2.50e-1 | 0.10000 | 1.00e-2 | 0.1000 | 1.25 | | |\n"),
+            "{text}"
+        );
     }
 }

@@ -1,0 +1,142 @@
+//! What it costs that a scene could have had more: an iteration as it is planned, with what the scene does not need taken
+//! out of the plan by hand, and with it put in.
+
+#![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
+#![allow(clippy::print_stdout, reason = "the table is what it is for")]
+
+use patchlight::scene::{Location, SceneFile};
+use patchlight::transport::{
+    CameraBatch, Cancel, CausticPlan, Maps, PhotonMap, Plan, camera_pass, caustic_photon_pass, gather,
+    global_photon_pass,
+};
+use patchlight::world::{World, prepare};
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// Of a full iteration: the first three are smaller.
+const ITERATION: u64 = 4;
+/// Each way to render a scene is measured so often, in turn.
+const ROUNDS: usize = 25;
+
+/// An open box with a diffuse ball.
+const DIFFUSE: &str = r#"version = 1
+[camera]
+position = [0, 0, 4]
+target = [0, 0, 0]
+fov_y = 40
+[film]
+width = 256
+height = 256
+[[material]]
+name = "white"
+type = "diffuse"
+albedo = [0.7, 0.7, 0.7]
+[[material]]
+name = "mirror"
+type = "mirror"
+reflectance = [0.9, 0.9, 0.9]
+[[light]]
+name = "lamp"
+type = "point"
+position = [0.2, 0.8, 0.3]
+intensity = [1, 1, 1]
+[[object]]
+name = "floor"
+type = "quad"
+material = "white"
+corner = [-1, -1, 1]
+edge_u = [2, 0, 0]
+edge_v = [0, 0, -2]
+"#;
+
+const BACK_WALL_AND_BALL: &str = r#"
+[[object]]
+name = "back wall"
+type = "quad"
+material = "white"
+corner = [-1, -1, -1]
+edge_u = [2, 0, 0]
+edge_v = [0, 2, 0]
+[[object]]
+name = "ball"
+type = "sphere"
+material = "white"
+center = [0, -0.6, 0]
+radius = 0.4
+"#;
+
+/// It sends light to the floor, and the camera looks the other way.
+const MIRROR_BEHIND_THE_CAMERA: &str = r#"
+[[object]]
+name = "mirror"
+type = "quad"
+material = "mirror"
+corner = [-1, -1, 4.5]
+edge_u = [0, 2, 0]
+edge_v = [2, 0, 0]
+"#;
+
+fn world(text: &str) -> World {
+    let file = SceneFile::parse(text, Location::Unsaved).expect("the scene is valid");
+    prepare(&file.scene, &file.location, None).expect("the scene is whole")
+}
+
+/// Seconds that the passes of an iteration take.
+fn iteration(world: &World, plan: &Plan) -> f64 {
+    let start = Instant::now();
+    let caustic = caustic_photon_pass(world, plan, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
+    let global = global_photon_pass(world, plan, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
+    let maps = Maps {
+        caustic: PhotonMap::build(&caustic.photons),
+        global: PhotonMap::build(&global.photons),
+        focused: PhotonMap::build(&global.focused),
+    };
+    let band = |rows| {
+        let seen: CameraBatch = camera_pass(world, plan, &rows, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
+        gather(world, plan, &maps, &seen, ITERATION, Cancel::NEVER).expect("never cancelled").0.len()
+    };
+    let gathered: usize = plan.bands(ITERATION).into_par_iter().map(band).sum();
+    std::hint::black_box(gathered);
+    start.elapsed().as_secs_f64()
+}
+
+/// A line of the table: ratios of the least times, which noise of the machine changes least.
+fn row(what: &str, world: &World, without: &Plan, with: &Plan) {
+    let plans = [&Plan::new(world), without, with];
+    let mut least = [f64::INFINITY; 3];
+    for _ in 0..ROUNDS {
+        for (least, plan) in least.iter_mut().zip(plans) {
+            *least = least.min(iteration(world, plan));
+        }
+    }
+    println!("| {what} | {:.3} | {:.2} |", least[0] / least[1], least[2] / least[0]);
+}
+
+fn main() {
+    println!("| not needed | as planned over taken out by hand | put in by hand over as planned |\n|---|--:|--:|");
+    let room = [DIFFUSE, BACK_WALL_AND_BALL].concat();
+    let (diffuse, mirrored) = (world(&room), world(&[&room, MIRROR_BEHIND_THE_CAMERA].concat()));
+    let caustics = Plan::new(&mirrored).caustics.expect("a mirror makes caustics");
+    let planned = |caustics: Option<CausticPlan>| {
+        let mut plan = Plan::new(&diffuse);
+        plan.caustics = caustics;
+        plan
+    };
+    row("caustics", &diffuse, &planned(None), &planned(Some(caustics.clone())));
+
+    let floor = world(DIFFUSE);
+    let paths = Plan::new(&diffuse).global_paths;
+    let planned = |global_paths: Vec<u64>| {
+        let mut plan = Plan::new(&floor);
+        plan.global_paths = global_paths;
+        plan
+    };
+    row("interreflection", &floor, &planned(Vec::new()), &planned(paths));
+
+    let planned = |seen_indirectly: bool| {
+        let mut plan = Plan::new(&mirrored);
+        plan.caustics = Some(CausticPlan { seen_indirectly, ..caustics.clone() });
+        plan
+    };
+    row("caustics in mirrors", &mirrored, &planned(false), &planned(true));
+}

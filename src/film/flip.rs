@@ -1,0 +1,44 @@
+//! How different a viewer finds two pictures who looks from one to the other: the mean of FLIP \[Andersson20\].
+
+use super::{LinearImage, Mask, ToneMap};
+use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8};
+
+/// For each pixel how different the two look on a screen, 0 to 1. Both have the same size.
+pub fn flip(image: &LinearImage, reference: &LinearImage, tone: &ToneMap) -> Vec<f32> {
+    let shown =
+        |image: &LinearImage| FlipImageRgb8::with_data(image.width, image.height, tone.map_image(image).as_flattened());
+    nv_flip::flip(shown(reference), shown(image), DEFAULT_PIXELS_PER_DEGREE).to_vec()
+}
+
+/// The mean of these over the pixels that count; not a number where none does.
+pub fn mean_inside(differences: &[f32], mask: Option<&Mask>) -> f64 {
+    let counts = |k: usize| mask.is_none_or(|mask| mask.inside[k]);
+    let counting = differences.iter().enumerate().filter(|(k, _)| counts(*k));
+    let (sum, count) = counting.fold((0.0, 0), |(sum, count), (_, x)| (sum + f64::from(*x), count + 1));
+    sum / f64::from(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{math::Rgb, scene::ToneCurve};
+
+    #[test]
+    fn what_looks_alike_differs_by_nothing_and_black_from_white_by_all() {
+        let tone = ToneMap::new(0.0, ToneCurve::Srgb);
+        let plain = |value| LinearImage { width: 32, height: 32, pixels: vec![Rgb::splat(value); 32 * 32] };
+        let (black, gray, white) = (plain(0.0), plain(0.2), plain(1.0));
+        assert_eq!(mean_inside(&flip(&gray, &gray, &tone), None), 0.0);
+        let most = mean_inside(&flip(&black, &white, &tone), None);
+        assert!(most > 0.95, "{most}");
+        let some = mean_inside(&flip(&gray, &white, &tone), None);
+        assert!(0.1 < some && some < most, "{some}");
+    }
+
+    #[test]
+    fn only_pixels_inside_count() {
+        let mask = Mask { width: 2, height: 1, inside: vec![false, true] };
+        assert_eq!(mean_inside(&[1.0, 0.25], Some(&mask)), 0.25);
+        assert!(mean_inside(&[], None).is_nan());
+    }
+}
