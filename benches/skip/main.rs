@@ -16,7 +16,7 @@ use std::time::Instant;
 /// Of a full iteration: the first three are smaller.
 const ITERATION: u64 = 4;
 /// Each way to render a scene is measured so often, in turn.
-const ROUNDS: usize = 25;
+const ROUNDS: usize = 300;
 
 /// An open box with a diffuse ball.
 const DIFFUSE: &str = r#"version = 1
@@ -25,8 +25,8 @@ position = [0, 0, 4]
 target = [0, 0, 0]
 fov_y = 40
 [film]
-width = 256
-height = 256
+width = 96
+height = 96
 [[material]]
 name = "white"
 type = "diffuse"
@@ -71,7 +71,7 @@ const MIRROR_BEHIND_THE_CAMERA: &str = r#"
 name = "mirror"
 type = "quad"
 material = "mirror"
-corner = [-1, -1, 4.5]
+corner = [-1, -1, 7]
 edge_u = [0, 2, 0]
 edge_v = [2, 0, 0]
 "#;
@@ -100,19 +100,34 @@ fn iteration(world: &World, plan: &Plan) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// A line of the table: ratios of the least times, which noise of the machine changes least.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// A line of the table: medians of ratios of neighbouring measurements, in turns, for the machine's speed changes.
 fn row(what: &str, world: &World, without: &Plan, with: &Plan) {
     let plans = [&Plan::new(world), without, with];
-    let mut least = [f64::INFINITY; 3];
-    for _ in 0..ROUNDS {
-        for (least, plan) in least.iter_mut().zip(plans) {
-            *least = least.min(iteration(world, plan));
+    let (mut taken_out, mut put_in) = (Vec::new(), Vec::new());
+    for round in 0..ROUNDS {
+        let mut seconds = [0.0; 3];
+        for k in 0..3 {
+            let plan = (k + round) % 3;
+            seconds[plan] = iteration(world, plans[plan]);
         }
+        taken_out.push(seconds[0] / seconds[1]);
+        put_in.push(seconds[2] / seconds[0]);
     }
-    println!("| {what} | {:.3} | {:.2} |", least[0] / least[1], least[2] / least[0]);
+    println!("| {what} | {:.3} | {:.2} |", median(taken_out), median(put_in));
 }
 
 fn main() {
+    // One thread: none waits for another.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("there is a thread");
+    pool.install(table);
+}
+
+fn table() {
     println!("| not needed | as planned over taken out by hand | put in by hand over as planned |\n|---|--:|--:|");
     let room = [DIFFUSE, BACK_WALL_AND_BALL].concat();
     let (diffuse, mirrored) = (world(&room), world(&[&room, MIRROR_BEHIND_THE_CAMERA].concat()));
