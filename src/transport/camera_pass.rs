@@ -52,6 +52,10 @@ pub struct VisiblePoint {
     pub tag: u32,
     /// Scattering events that a photon may have behind it to be counted here.
     pub photon_bounces: u32,
+    /// Mean of the albedos that the pixel's paths found on the same surface.
+    pub mean_albedo: Rgb,
+    /// How far from here they met it at most, scene units.
+    pub spread: f32,
     /// Where its facets begin among those of the batch, if it has any.
     pub first_facet: u32,
     /// How many it has.
@@ -71,6 +75,8 @@ pub struct Facet {
     pub albedo: Rgb,
     /// First tag of the photons on the same surface and side.
     pub tag: u32,
+    /// Relative to the middle of the world.
+    pub position: Vec3,
 }
 
 /// How far other objects are from a point, scene units, no more than matters for density estimates.
@@ -248,22 +254,24 @@ impl Walk<'_> {
     }
 
     /// Completes the visible points of a pixel. Where its paths all met one surface first, what each of them saw of its texture
-    /// and its relief counts: one place in the pixel alone would be noise.
+    /// and its relief may count: one place in the pixel alone is noise.
     fn end_points(&mut self, first_point: usize, on_an_edge: bool) {
         for k in (first_point..self.batch.visible_points.len()).rev() {
             let point = &mut self.batch.visible_points[k];
             if point.seen_directly && !on_an_edge {
                 let alike = self.facets.iter().filter(|facet| facet.tag == point.tag);
-                if self.has_relief {
+                let (count, sum) =
+                    alike.clone().fold((0.0, Rgb::ZERO), |(n, sum), facet| (n + 1.0, sum + facet.albedo));
+                point.mean_albedo = sum / f32::max(count, 1.0);
+                let distances = alike.clone().map(|facet| facet.position.distance(point.position));
+                point.spread = distances.fold(0.0, f32::max);
+                if self.has_relief && sum != Rgb::ZERO {
                     point.first_facet = self.batch.facets.len() as u32;
                     self.batch.facets.extend(alike);
                     point.facets = self.batch.facets.len() as u32 - point.first_facet;
-                } else {
-                    let count = alike.clone().count().max(1) as f32;
-                    point.scattering.albedo = alike.map(|facet| facet.albedo).sum::<Rgb>() / count;
                 }
             }
-            if point.facets == 0 && !scatters(&point.scattering) {
+            if point.mean_albedo == Rgb::ZERO && !scatters(&point.scattering) {
                 self.batch.visible_points.swap_remove(k);
             }
         }
@@ -316,7 +324,8 @@ impl Walk<'_> {
         let is_first = branch.bounces == 0;
         if is_first && self.plan.gathers() {
             let tag = photon::tag(object, point.front, 0);
-            self.facets.push(Facet { normal: n_shade.as_vec3(), albedo: scattering.albedo, tag });
+            let position = (vertex.point.position - self.world.center).as_vec3();
+            self.facets.push(Facet { normal: n_shade.as_vec3(), albedo: scattering.albedo, tag, position });
             self.has_relief |= n_shade != vertex.n_side;
         }
         let mut radiance = Rgb::ZERO;
@@ -349,6 +358,8 @@ impl Walk<'_> {
             uv: DVec2::new(vertex.point.hit.u, vertex.point.hit.v),
             tag: photon::tag(object, vertex.point.front, 0),
             photon_bounces: (self.world.max_bounces - branch.bounces - 1).min(photon::MAX_TAG_BOUNCES),
+            mean_albedo: vertex.scattering.albedo,
+            spread: 0.0,
             first_facet: 0,
             facets: 0,
             seen_directly: branch.bounces == 0,

@@ -19,13 +19,16 @@ use crate::geometry::Primitive;
 use crate::math::lanes::Avx2;
 use crate::math::lanes::Portable;
 use crate::math::{Lanes, Rgb, sobol};
-use crate::world::{Lobe, SharedEdges, Surface, World};
+use crate::world::{Lobe, Scattering, SharedEdges, Surface, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3};
 use multiversion::multiversion;
 
 /// Visible points between two questions whether the pass is still wanted.
 const POINTS_PER_BLOCK: usize = 1024;
+/// Where a pixel's paths meet a surface nearer to each other than this part of a disc's radius, they find the same light there:
+/// what changes between them is less than the disc blurs anyway, and shrinks with it.
+const PIXEL_PART_OF_RADIUS: f64 = 0.5;
 /// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
 const MAX_PART_OF_SPHERE: f64 = 0.32;
 
@@ -141,7 +144,9 @@ impl Gatherer<'_> {
             if self.shares(kind) && self.is_wanted(kind, point) {
                 let radius = self.radius(kind, point);
                 // No closure: it would not get the vector instructions.
-                let Some(disc) = self.disc(point, None, radius) else { continue };
+                let Some(mut disc) = self.disc(point, None, radius) else { continue };
+                // For neighbours, whose relief is another one.
+                disc.tilt.normal = point.n_side;
                 sum += irradiance(l, &self.maps[kind], stack, point, &disc);
             }
         }
@@ -159,7 +164,6 @@ impl Gatherer<'_> {
         counters: &mut Counters,
     ) -> Gathered {
         let mut found = Gathered::default();
-        let reflected = |irradiance: Rgb| point.throughput * irradiance * bsdf::eval_diffuse(&point.scattering);
         let radii: ArrayVec<(MapKind, f64), 3> = MapKind::ALL
             .into_iter()
             .filter(|kind| self.is_wanted(*kind, point))
@@ -170,7 +174,9 @@ impl Gatherer<'_> {
         let view = self.view(point, largest * if compares { WIDER } else { 1.0 }, counters);
         for (kind, radius) in radii {
             let light = match shared {
-                Some(irradiance) if kind == MapKind::Global => reflected(irradiance),
+                Some(irradiance) if kind == MapKind::Global => {
+                    point.throughput * irradiance * diffuse_reflection(point, radius)
+                }
                 Some(_) if self.shares(kind) => continue,
                 _ => {
                     let is_caustic = kind == MapKind::Caustic;
@@ -202,7 +208,7 @@ impl Gatherer<'_> {
         !self.maps[kind].is_empty()
             && match kind {
                 MapKind::Caustic => !point.seen_directly || self.plan.gathers_visible_caustics(self.iteration),
-                MapKind::Global | MapKind::Focused => point.scattering.albedo != Rgb::ZERO || point.facets > 0,
+                MapKind::Global | MapKind::Focused => scatters_diffusely(point),
             }
     }
 
@@ -275,10 +281,15 @@ impl Gatherer<'_> {
         let facets = &self.facets[point.first_facet as usize..][..point.facets as usize];
         let reflected = if is_glossy {
             glossy_reflection(l, map, stack, point, &disc)
-        } else if !facets.is_empty() && disc.view.is_none() {
+        } else if !facets.is_empty() && disc.view.is_none() && holds_pixel(point, radius) {
             faceted_reflection(l, map, stack, facets, &disc)
         } else {
-            irradiance(l, map, stack, point, &disc) * bsdf::eval_diffuse(&point.scattering)
+            let albedo_over_pi = if facets.is_empty() {
+                diffuse_reflection(point, radius)
+            } else {
+                bsdf::eval_diffuse(&point.scattering)
+            };
+            irradiance(l, map, stack, point, &disc) * albedo_over_pi
         };
         point.throughput * reflected
     }
@@ -313,6 +324,22 @@ impl Gatherer<'_> {
     }
 }
 
+/// Whether all that a pixel sees of a surface lies so near to a point that it finds the same light in a disc of this radius.
+fn holds_pixel(point: &VisiblePoint, radius: f64) -> bool {
+    f64::from(point.spread) <= PIXEL_PART_OF_RADIUS * radius
+}
+
+/// The diffuse part of the scattering function, per steradian: the mean over the pixel where that finds the same light.
+fn diffuse_reflection(point: &VisiblePoint, radius: f64) -> Rgb {
+    let mean = Scattering { albedo: point.mean_albedo, ..point.scattering };
+    bsdf::eval_diffuse(if holds_pixel(point, radius) { &mean } else { &point.scattering })
+}
+
+/// Whether any place that stands for the pixel reflects light by Lambert's law.
+fn scatters_diffusely(point: &VisiblePoint) -> bool {
+    point.scattering.albedo != Rgb::ZERO || point.mean_albedo != Rgb::ZERO
+}
+
 /// Where photons are gathered for a point, and how they count.
 struct Disc<'v> {
     query: Query,
@@ -333,7 +360,7 @@ fn irradiance<L: Lanes>(l: L, map: &PhotonMap, stack: &mut Stack, point: &Visibl
             sum += if is_in_view(point, *view, &photon) { weight * photon.flux } else { Rgb::ZERO };
         });
         sum
-    } else if tilt.bend > 0.0 || point.n_shade != point.n_side {
+    } else if tilt.bend > 0.0 || tilt.normal != point.n_side {
         map.sum_tilted_flux(l, query, tilt, stack)
     } else {
         map.sum_flux(l, query, stack)

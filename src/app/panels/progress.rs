@@ -109,7 +109,8 @@ fn target_ui(ui: &mut Ui, target: Option<f64>, commands: &mut Vec<AppCommand>) {
             .range(0.0..=100.0)
             .speed(0.01)
             .max_decimals(3)
-            .custom_formatter(|percent, _| if percent > 0.0 { format!("{percent} %") } else { "never".to_owned() })
+            .update_while_editing(false)
+            .custom_formatter(|percent, _| target_text(percent))
             .custom_parser(|text| text.trim().trim_end_matches('%').trim().parse().ok());
         let field = ui.add(field).labelled_by(label.id);
         if field.on_hover_text("Rendering rests once the error estimate is no more than this; 0: never").changed() {
@@ -188,6 +189,11 @@ fn passes_ui(ui: &mut Ui, stats: &Stats) {
     });
 }
 
+/// To a thousandth, without the rounding of the conversion from parts to percent.
+fn target_text(percent: f64) -> String {
+    if percent > 0.0 { format!("{} %", (1e3 * percent).round() / 1e3) } else { "never".to_owned() }
+}
+
 /// A positive number to two significant digits.
 fn two_digits(number: f64) -> String {
     let decimals = (1.0 - number.log10().floor()).clamp(0.0, 9.0) as usize;
@@ -244,6 +250,7 @@ mod tests {
             [two_digits(0.0316), two_digits(1.6), two_digits(10.0), two_digits(251.0)],
             ["0.032", "1.6", "10", "251"]
         );
+        assert_eq!([target_text(100.0 * (0.01 * 7.0)), target_text(0.0)], ["7 %", "never"]);
         assert_eq!([duration(5.04), duration(125.9), duration(3725.0)], ["5.0 s", "2:05", "1:02:05"]);
     }
 

@@ -67,7 +67,7 @@ fn check_sums<L: Lanes>(l: L) {
                 let found = map.sum_tilted_flux(l, &query, &Tilt { normal: n_shade, ..flat }, &mut stack);
                 assert!(near(found, tilted), "{found} against {tilted}");
                 let (red, blue) = (Rgb::new(0.5, 0.0, 0.0), Rgb::new(0.25, 0.0, 1.0));
-                let facet = |normal, albedo| Facet { normal, albedo, tag: 0 };
+                let facet = |normal, albedo| Facet { normal, albedo, tag: 0, position: Vec3::ZERO };
                 let facets = [facet(Vec3::Y, red), facet(n_shade, blue)];
                 let found = map.sum_faceted_flux(l, &query, &flat, &facets, &mut stack);
                 assert!(near(found, expected * red + tilted * blue), "{found} of two facets");
