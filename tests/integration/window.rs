@@ -86,7 +86,8 @@ impl Desktop {
     fn start() -> Self {
         let screen = format!("{}x{}x24", SCREEN.0, SCREEN.1);
         let server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", &screen, "-nolisten", "tcp"])
+            // It would begin anew whenever its last client has gone, and meanwhile answer none.
+            .args(["-displayfd", "1", "-screen", "0", &screen, "-nolisten", "tcp", "-noreset"])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn();
