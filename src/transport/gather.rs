@@ -284,12 +284,7 @@ impl Gatherer<'_> {
         } else if !facets.is_empty() && disc.view.is_none() && holds_pixel(point, radius) {
             faceted_reflection(l, map, stack, facets, &disc)
         } else {
-            let albedo_over_pi = if facets.is_empty() {
-                diffuse_reflection(point, radius)
-            } else {
-                bsdf::eval_diffuse(&point.scattering)
-            };
-            irradiance(l, map, stack, point, &disc) * albedo_over_pi
+            irradiance(l, map, stack, point, &disc) * diffuse_reflection(point, radius)
         };
         point.throughput * reflected
     }
@@ -329,10 +324,12 @@ fn holds_pixel(point: &VisiblePoint, radius: f64) -> bool {
     f64::from(point.spread) <= PIXEL_PART_OF_RADIUS * radius
 }
 
-/// The diffuse part of the scattering function, per steradian: the mean over the pixel where that finds the same light.
+/// The diffuse part of the scattering function, per steradian, for the irradiance at a point: the mean over the pixel where
+/// that finds the same light. With facets it does not: each looks another way.
 fn diffuse_reflection(point: &VisiblePoint, radius: f64) -> Rgb {
     let mean = Scattering { albedo: point.mean_albedo, ..point.scattering };
-    bsdf::eval_diffuse(if holds_pixel(point, radius) { &mean } else { &point.scattering })
+    let is_alike = point.facets == 0 && holds_pixel(point, radius);
+    bsdf::eval_diffuse(if is_alike { &mean } else { &point.scattering })
 }
 
 /// Whether any place that stands for the pixel reflects light by Lambert's law.

@@ -15,6 +15,10 @@ const LEAST_COS: f32 = 0.999;
 /// Pixels along a side of a square with one pixel that gathers: in iterations, and in drafts.
 const SIDE: u32 = 2;
 const DRAFT_SIDE: u32 = 4;
+/// Rows of a band, where the film has enough of them for all threads.
+const ROWS_OF_BAND: u32 = 16;
+/// Bands of a film, so that threads end at about the same time.
+const BANDS: u32 = 32;
 
 /// Which points gather for others.
 #[derive(Debug, Default)]
@@ -73,11 +77,6 @@ impl Lattice {
         point.fills_pixel && (self.is_draft || (point.n_shade == point.n_side && point.facets == 0))
     }
 }
-
-/// Rows of a band, where the film has enough of them for all threads.
-const ROWS_OF_BAND: u32 = 16;
-/// Bands of a film, so that threads end at about the same time.
-const BANDS: u32 = 32;
 
 impl Sharing {
     /// Every point gathers for itself alone.
