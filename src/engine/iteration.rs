@@ -1,7 +1,8 @@
 use super::frame::PassSeconds;
 use crate::math::Rgb;
 use crate::transport::{
-    Cancel, Counters, Maps, PerMap, PhotonMap, Plan, Rows, camera_pass, caustic_photon_pass, gather, global_photon_pass,
+    Cancel, Counters, Maps, PerMap, PhotonMap, PixelSamples, Plan, Rows, camera_pass, caustic_photon_pass, gather,
+    global_photon_pass,
 };
 use crate::world::World;
 use rayon::prelude::*;
@@ -14,6 +15,8 @@ pub(super) struct Iteration {
     pub(super) radiance: Vec<Rgb>,
     /// For each pixel, of [`gather`].
     pub(super) contrasts: Vec<PerMap<f32>>,
+    /// For each pixel, of [`camera_pass`].
+    pub(super) samples: Vec<PixelSamples>,
     pub(super) counters: Counters,
     pub(super) seconds: PassSeconds,
 }
@@ -50,10 +53,11 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     }
     let mut radiance = bands.iter().map(|band| band.radiance.as_slice()).collect::<Vec<_>>().concat();
     let contrasts = bands.iter().map(|band| band.contrasts.as_slice()).collect::<Vec<_>>().concat();
+    let samples = bands.iter().map(|band| band.samples.as_slice()).collect::<Vec<_>>().concat();
     for splat in &caustic.splats {
         radiance[splat.pixel as usize] += splat.radiance;
     }
-    Some(Iteration { radiance, contrasts, counters, seconds })
+    Some(Iteration { radiance, contrasts, samples, counters, seconds })
 }
 
 /// What the camera sees in some rows of the film.
@@ -77,7 +81,7 @@ fn render_band(
         radiance[place] += found.radiance;
         contrasts[place] += found.contrasts;
     }
-    Some(Iteration { radiance, contrasts, counters, seconds })
+    Some(Iteration { radiance, contrasts, samples: seen.samples, counters, seconds })
 }
 
 /// Runs a pass and adds its wall-clock time.

@@ -3,7 +3,7 @@ use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
 use super::iteration::render_iteration;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Component, Contrasts, Counters, Plan};
+use crate::transport::{Cancel, Component, Counters, Measured, Plan};
 use crate::world::{Camera, PrepareError, World, prepare};
 use std::sync::Arc;
 use std::time::Instant;
@@ -30,8 +30,8 @@ pub enum SessionError {
     },
 }
 
-/// Bytes for each pixel at the busiest moment: the sums, contrasts, an iteration, a frame and what is written to a file.
-const BYTES_PER_PIXEL: u64 = 128;
+/// Bytes for each pixel at the busiest moment: the sums, what was measured, an iteration, a frame and what is written to a file.
+const BYTES_PER_PIXEL: u64 = 192;
 
 /// Whether there is memory for the film; asked before, because a program that gets none in between is ended.
 fn check_memory(camera: &Camera) -> Result<(), SessionError> {
@@ -49,8 +49,8 @@ pub struct Session {
     summary: Arc<PlanSummary>,
     seed: u64,
     film: FilmSums,
-    /// Since the plan was refined, once there are any.
-    contrasts: Option<Contrasts>,
+    /// Once there is an iteration.
+    measured: Option<Measured>,
     counters: Counters,
     passes: PassSeconds,
     seconds: f64,
@@ -73,7 +73,7 @@ impl Session {
             summary,
             seed,
             film,
-            contrasts: None,
+            measured: None,
             counters: Counters::default(),
             passes,
             seconds: 0.0,
@@ -106,11 +106,11 @@ impl Session {
             self.passes.commit += commit.elapsed().as_secs_f64();
             self.counters += iteration.counters;
             let (width, height) = (self.plan.camera.width, self.plan.camera.height);
-            let contrasts = self.contrasts.get_or_insert_with(|| Contrasts::new(width, height));
-            contrasts.add(number, &iteration.contrasts);
-            if let Some(refined) = self.plan.refined(number, contrasts) {
+            let measured = self.measured.get_or_insert_with(|| Measured::new(width, height));
+            measured.add(number, &iteration.contrasts, &iteration.samples);
+            if let Some(refined) = self.plan.refined(number, measured) {
                 self.plan = refined;
-                self.contrasts = None;
+                measured.forget_radii();
             }
         }
         self.seconds += start.elapsed().as_secs_f64();

@@ -88,14 +88,14 @@ impl Sums {
 
 /// The contrasts that iterations with the same radii measured: how much brighter pixels are in wider discs.
 #[derive(Clone, Debug)]
-pub struct Contrasts {
+pub(super) struct Contrasts {
     cells: Cells,
     sums: PerMap<Vec<Sums>>,
 }
 
 impl Contrasts {
     /// None yet, for a film of this size.
-    pub fn new(width: u32, height: u32) -> Self {
+    pub(super) fn new(width: u32, height: u32) -> Self {
         let cells = Cells::new(width, height);
         Self { cells, sums: PerMap::from_fn(|_| vec![Sums::default(); cells.count()]) }
     }
@@ -107,7 +107,7 @@ impl Contrasts {
     }
 
     /// Adds what an iteration measured, a contrast for each pixel of the film.
-    pub fn add(&mut self, iteration: u64, contrasts: &[PerMap<f32>]) {
+    pub(super) fn add(&mut self, iteration: u64, contrasts: &[PerMap<f32>]) {
         for (pixel, contrast) in (0..).zip(contrasts) {
             if Self::includes(self.cells.width, pixel, iteration) {
                 for kind in MapKind::ALL {

@@ -5,7 +5,8 @@ use super::counters::Counters;
 use super::direct::{self, Vertex};
 use super::medium::Media;
 use super::photon;
-use super::plan::{CAMERA_SAMPLES, Plan};
+use super::pixel_samples::{MOST_SAMPLES, PixelSamples};
+use super::plan::Plan;
 use super::{Cancel, Rows};
 use crate::geometry::{Hit, Primitive};
 use crate::math::{LANES, Ray, Rgb, Sampler, Stream, sobol};
@@ -20,6 +21,8 @@ const FOLLOWED_SPLITS: u32 = 2;
 const WEAK_BRANCH: f32 = 0.02;
 /// Enough for two branches at each followed split and one continuation each.
 const MAX_BRANCHES: usize = 16;
+/// Samples of a pixel that gather light where it shows different surfaces.
+const SAMPLES_OF_EDGE: usize = 4;
 /// Columns of a tile, whose rows are those of the pass.
 const TILE: u32 = 16;
 
@@ -102,6 +105,8 @@ pub struct CameraBatch {
     pub facets: Vec<Facet>,
     /// For each pixel of the rows the radiance found so far: emitted and direct light.
     pub radiance: Vec<Rgb>,
+    /// For each pixel how its samples differed.
+    pub samples: Vec<PixelSamples>,
     /// What was done.
     pub counters: Counters,
 }
@@ -117,8 +122,9 @@ pub fn camera_pass(
     cancel: Cancel,
 ) -> Option<CameraBatch> {
     let width = plan.camera.width;
-    let radiance = vec![Rgb::ZERO; rows.len() * width as usize];
-    let batch = CameraBatch { radiance, ..CameraBatch::default() };
+    let pixels = rows.len() * width as usize;
+    let radiance = vec![Rgb::ZERO; pixels];
+    let batch = CameraBatch { radiance, samples: vec![PixelSamples::default(); pixels], ..CameraBatch::default() };
     let mut walk = Walk {
         world,
         plan,
@@ -127,6 +133,7 @@ pub fn camera_pass(
         gather_weight: 0.0,
         facets: ArrayVec::new(),
         has_relief: false,
+        is_textured: false,
     };
     for left in (0..width).step_by(TILE as usize) {
         if cancel.is_cancelled() {
@@ -134,10 +141,15 @@ pub fn camera_pass(
         }
         for row in rows.clone() {
             let columns = left..(left + TILE).min(width);
-            let mut starts = walk.starts(row, columns.clone(), seed, iteration).into_iter();
+            let mut starts = walk.starts(row, columns.clone(), seed, iteration);
+            let mut rest = starts.as_mut_slice();
             for column in columns {
-                let radiance = walk.sample_pixel(row * width + column, &mut starts, iteration);
-                walk.batch.radiance[((row - rows.start) * width + column) as usize] = radiance;
+                let pixel = row * width + column;
+                let own = rest.split_off_mut(..plan.camera_samples(pixel, iteration).count()).unwrap_or_default();
+                let samples = walk.sample_pixel(pixel, own, iteration);
+                let place = ((row - rows.start) * width + column) as usize;
+                walk.batch.radiance[place] = samples.mean();
+                walk.batch.samples[place] = samples;
             }
         }
     }
@@ -152,9 +164,11 @@ struct Walk<'a> {
     /// Weight of the present path's visible points in their pixel; it leaves none if this is 0.
     gather_weight: f32,
     /// What the present pixel's paths met first.
-    facets: ArrayVec<Facet, { CAMERA_SAMPLES as usize }>,
+    facets: ArrayVec<Facet, MOST_SAMPLES>,
     /// Whether a relief map tilts any of them.
     has_relief: bool,
+    /// Whether any of them has a texture.
+    is_textured: bool,
 }
 
 /// A path as far as the first surface.
@@ -195,9 +209,9 @@ impl Walk<'_> {
     /// go down the trees together.
     fn starts(&mut self, row: u32, columns: Range<u32>, seed: u64, iteration: u64) -> Vec<Start> {
         let camera = &self.plan.camera;
-        let samples = self.plan.camera_samples(iteration);
+        let samples = |column| self.plan.camera_samples(row * camera.width + column, iteration);
         let mut starts: Vec<Start> = columns
-            .flat_map(|column| samples.clone().map(move |index| (column, index)))
+            .flat_map(|column| samples(column).map(move |index| (column, index)))
             .map(|(column, index)| {
                 let pixel = u64::from(row * camera.width + column);
                 let mut sampler = Sampler::new(seed, self.plan.stream(Stream::Camera), pixel, index);
@@ -219,37 +233,39 @@ impl Walk<'_> {
         starts
     }
 
-    /// All samples of an iteration for one pixel, whose starts are the next ones. Visible points, which are most of the
-    /// work, are left by all of them where they meet different surfaces, else by one of them for all.
-    fn sample_pixel(&mut self, pixel: u32, starts: &mut impl Iterator<Item = Start>, iteration: u64) -> Rgb {
-        let samples = self.plan.camera_samples(iteration);
-        let starts: ArrayVec<Start, { CAMERA_SAMPLES as usize }> = starts.take(samples.count()).collect();
-        let count = starts.len() as u64;
-        let surface = |start: &Start| start.hit.map(|hit| hit.primitive);
+    /// All samples of an iteration for one pixel, from their starts on. Visible points, which are most of the
+    /// work, are left by some of them where they meet different surfaces, else by one of them for all.
+    fn sample_pixel(&mut self, pixel: u32, starts: &mut [Start], iteration: u64) -> PixelSamples {
+        let count = starts.len();
+        let surface = |start: &Start| start.hit.map_or(0, |hit| hit.primitive + 1);
         let on_an_edge = starts.iter().any(|start| surface(start) != surface(&starts[0]));
+        let mut samples = PixelSamples { surface: surface(&starts[0]), ..PixelSamples::default() };
+        let gathering = match (self.plan.gathers(), on_an_edge) {
+            (false, _) => 0,
+            (true, true) => count.min(SAMPLES_OF_EDGE),
+            (true, false) => 1,
+        };
         // Another place in the sequence each time: every n-th point of it would keep to a part of the pixel.
-        let chosen = sobol::mix64(u64::from(pixel) ^ sobol::mix64(iteration)) % count;
-        let mut radiance = Rgb::ZERO;
+        let random = sobol::mix64(u64::from(pixel) ^ sobol::mix64(iteration)) as usize;
+        let first = random % (count / gathering.max(1)) * gathering;
         let first_point = self.batch.visible_points.len();
         self.facets.clear();
-        self.has_relief = false;
-        for (index, start) in (0..).zip(starts) {
-            self.gather_weight = match (self.plan.gathers(), on_an_edge) {
-                (false, _) => 0.0,
-                (true, true) => 1.0 / count as f32,
-                (true, false) => f32::from(index == chosen),
-            };
-            radiance += self.trace_path(pixel, start);
+        (self.has_relief, self.is_textured) = (false, false);
+        for (index, start) in starts.iter_mut().enumerate() {
+            let gathers = (first..first + gathering).contains(&index);
+            self.gather_weight = if gathers { 1.0 / gathering as f32 } else { 0.0 };
+            let radiance = self.trace_path(pixel, start);
+            samples.include(radiance);
         }
-        radiance /= count as f32;
+        samples.is_varied = on_an_edge || self.is_textured;
         self.end_points(first_point, on_an_edge);
         if !self.plan.finds_direct_light {
-            Rgb::ZERO
-        } else if radiance.is_finite() {
-            radiance
+            PixelSamples::default()
+        } else if samples.is_finite() {
+            samples
         } else {
             self.batch.counters.dropped_samples += 1;
-            Rgb::ZERO
+            PixelSamples::default()
         }
     }
 
@@ -282,10 +298,10 @@ impl Walk<'_> {
         self.world.aggregate.closest_hit(ray)
     }
 
-    fn trace_path(&mut self, pixel: u32, start: Start) -> Rgb {
-        let Start { mut sampler, ray, hit } = start;
+    fn trace_path(&mut self, pixel: u32, start: &mut Start) -> Rgb {
+        let sampler = &mut start.sampler;
         let first = Branch {
-            ray,
+            ray: start.ray,
             throughput: Rgb::ONE,
             media: Media::default(),
             bounces: 0,
@@ -293,10 +309,10 @@ impl Walk<'_> {
             distance: 0.0,
             last: Last::Specular,
         };
-        let mut radiance = self.follow(first, hit, pixel, &mut sampler);
+        let mut radiance = self.follow(first, start.hit, pixel, sampler);
         while let Some(branch) = self.branches.pop() {
             let hit = self.closest_hit(&branch.ray);
-            radiance += self.follow(branch, hit, pixel, &mut sampler);
+            radiance += self.follow(branch, hit, pixel, sampler);
         }
         radiance
     }
@@ -322,6 +338,7 @@ impl Walk<'_> {
         let wo = -branch.ray.direction;
         let vertex = Vertex { point, scattering, n_side: point.n_side(), n_shade, wo };
         let is_first = branch.bounces == 0;
+        self.is_textured |= is_first && lookups > 0;
         if is_first && self.plan.gathers() {
             let tag = photon::tag(object, point.front, 0);
             let position = (vertex.point.position - self.world.center).as_vec3();

@@ -27,18 +27,20 @@ mod guide;
 mod kernel;
 mod light_choice;
 mod maps;
+mod measured;
 mod medium;
 mod morton;
 mod photon;
 mod photon_map;
 mod photon_pass;
+mod pixel_samples;
 mod plan;
 mod schedule;
 mod sharing;
 mod tilt;
 mod visibility_polygon;
 
-pub use bandwidth::{Bandwidth, Contrasts};
+pub use bandwidth::Bandwidth;
 pub use bsdf::{Fresnel, fresnel};
 pub use camera_pass::{CameraBatch, Facet, VisiblePoint, camera_pass};
 pub use caustic_pass::{CausticBatch, Splat, caustic_photon_pass};
@@ -47,9 +49,11 @@ pub use counters::Counters;
 pub use gather::{Gathered, gather};
 pub use guide::Guide;
 pub use maps::{MapKind, Maps, PerMap};
+pub use measured::Measured;
 pub use photon::Photon;
 pub use photon_map::{PhotonMap, Query};
 pub use photon_pass::{GlobalBatch, global_photon_pass};
+pub use pixel_samples::PixelSamples;
 pub use plan::{CausticPlan, Plan, PlanNote};
 
 /// Rows of the film, from the top.

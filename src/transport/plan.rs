@@ -6,6 +6,8 @@ use super::camera_pass::Clearance;
 use super::guide::Guide;
 use super::light_choice::CHOSEN;
 use super::maps::MapKind;
+use super::measured::Measured;
+use super::pixel_samples::SampleCounts;
 use super::schedule::{self, SMALLEST};
 use super::sharing::Lattice;
 use crate::geometry::Primitive;
@@ -53,6 +55,8 @@ pub struct Plan {
     is_draft: bool,
     /// By what radii have shrunk, once it was measured.
     bandwidth: Option<Arc<Bandwidth>>,
+    /// Samples of each pixel, once it was measured how they differ.
+    samples: Option<Arc<SampleCounts>>,
 }
 
 /// How caustics are rendered.
@@ -73,7 +77,7 @@ pub struct CausticPlan {
 const GLOBAL_PATHS_PER_PIXEL: f64 = 4.0;
 /// Samples of a pixel in a full iteration. Photons are gathered for one of them, which is most of the work; the others
 /// find direct light, whose edges need them.
-pub(super) const CAMERA_SAMPLES: f64 = 4.0;
+const CAMERA_SAMPLES: f64 = 4.0;
 /// Paths for caustics in a full iteration, for each pixel.
 const CAUSTIC_PATHS_PER_PIXEL: f64 = 2.0;
 /// Radii for interreflection are at most this part of the distance to the next object.
@@ -112,6 +116,7 @@ impl Plan {
             notes: notes.0,
             is_draft: false,
             bandwidth: None,
+            samples: None,
         }
     }
 
@@ -142,6 +147,7 @@ impl Plan {
             largest_radius: 0.2,
             is_draft: true,
             bandwidth: None,
+            samples: None,
             ..self.clone()
         }
     }
@@ -185,10 +191,13 @@ impl Plan {
         if self.is_draft { 1.0 } else { schedule::size(iteration) }
     }
 
-    /// Which samples of each pixel's sequence belong to an iteration; at least one.
-    pub(super) fn camera_samples(&self, iteration: u64) -> Range<u64> {
+    /// Which samples of a pixel's sequence belong to an iteration; at least one.
+    pub(super) fn camera_samples(&self, pixel: u32, iteration: u64) -> Range<u64> {
         if self.is_draft {
             return 0..1;
+        }
+        if let Some(samples) = &self.samples {
+            return samples.at(pixel, iteration);
         }
         let before = |i| (CAMERA_SAMPLES * schedule::size_before(i)).ceil() as u64;
         before(iteration)..before(iteration + 1)
@@ -229,18 +238,22 @@ impl Plan {
         !self.is_draft && Contrasts::includes(self.camera.width, pixel, iteration)
     }
 
-    /// The plan for what follows iteration `i`, with the radii that the contrasts of the iterations since the last
-    /// refinement ask for; `None` where it stays as it is.
-    pub fn refined(&self, i: u64, contrasts: &Contrasts) -> Option<Self> {
-        if !self.gathers() || !schedule::refines_after(i) {
+    /// The plan for what follows iteration `i`, with the samples and radii that what was measured asks for; `None` where it
+    /// stays as it is.
+    pub fn refined(&self, i: u64, measured: &Measured) -> Option<Self> {
+        if !schedule::refines_after(i) {
             return None;
         }
-        let total = schedule::size_before(2 * i + 1);
-        let bandwidth = match &self.bandwidth {
-            None => Bandwidth::first(contrasts, total, self.shrink(i)),
-            Some(bandwidth) => bandwidth.next(contrasts, total),
-        };
-        Some(Self { bandwidth: Some(Arc::new(bandwidth)), ..self.clone() })
+        let next = |pixel| self.camera_samples(pixel, i).end;
+        let samples = self.finds_direct_light.then(|| Arc::new(SampleCounts::best(i, &measured.samples, next)));
+        let bandwidth = (self.gathers() && schedule::refines_radii_after(i)).then(|| {
+            let total = schedule::size_before(2 * i + 1);
+            Arc::new(match &self.bandwidth {
+                None => Bandwidth::first(&measured.contrasts, total, self.shrink(i)),
+                Some(bandwidth) => bandwidth.next(&measured.contrasts, total),
+            })
+        });
+        Some(Self { bandwidth, samples, ..self.clone() })
     }
 
     /// Which paths of a light's sequence belong to an iteration, where a full one has `count`.
