@@ -220,7 +220,8 @@ impl Gatherer<'_> {
             MapKind::Global => plan.global_radius_at(footprint, point.clearance),
             MapKind::Focused => plan.focused_radius * footprint,
         };
-        self.limited(point, unshrunk) * plan.measured_shrink(kind, point.pixel).unwrap_or(self.shrink)
+        let factor = plan.measured_shrink(kind, point.pixel).unwrap_or(self.shrink);
+        self.limited(point, unshrunk * factor.max(1.0)) * factor.min(1.0)
     }
 
     /// What a point sees of its surface within the reach, if an object that stands there hides some of it.

@@ -1,7 +1,7 @@
 //! What a scene needs, decided before rendering, and why the rest is skipped.
 
 use super::Rows;
-use super::bandwidth::{Bandwidth, Contrasts, WIDER};
+use super::bandwidth::{self, Bandwidth, Contrasts, WIDER};
 use super::camera_pass::Clearance;
 use super::guide::Guide;
 use super::light_choice::CHOSEN;
@@ -163,7 +163,10 @@ impl Plan {
     /// The distances from which on other objects matter neither for radii nor for what is seen within them; `None`
     /// where none ever does.
     pub(super) fn wanted_clearance(&self, footprint: f64) -> Option<Clearance> {
-        let widest = WIDER * self.caustic_radius.max(self.focused_radius).max(self.least_standing_radius);
+        let grown = |kind, radius: f64| bandwidth::most_growth(kind) * radius;
+        let (caustic, focused) =
+            (grown(MapKind::Caustic, self.caustic_radius), grown(MapKind::Focused, self.focused_radius));
+        let widest = WIDER * caustic.max(focused).max(self.least_standing_radius);
         let global = |radius: f64| if self.global_paths.is_empty() { 0.0 } else { radius / PART_OF_CLEARANCE };
         let limit = |radius: f64| footprint * widest.max(global(radius));
         let limits = Clearance { any: limit(self.global_radius), standing: limit(self.least_global_radius) };
@@ -246,7 +249,7 @@ impl Plan {
         }
         let next = |pixel| self.camera_samples(pixel, i).end;
         let samples = self.finds_direct_light.then(|| Arc::new(SampleCounts::best(i, &measured.samples, next)));
-        let bandwidth = (self.gathers() && schedule::refines_radii_after(i)).then(|| {
+        let bandwidth = self.gathers().then(|| {
             let total = schedule::size_before(2 * i + 1);
             Arc::new(match &self.bandwidth {
                 None => Bandwidth::first(&measured.contrasts, total, self.shrink(i)),

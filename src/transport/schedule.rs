@@ -28,24 +28,17 @@ pub(super) fn shrink(i: u64) -> f64 {
     size_before(i.max(1) + 1).powf(-0.5 * (1.0 - ALPHA))
 }
 
-/// Samples are chosen anew after this iteration, a power of two, and after the powers that follow.
+/// Samples and radii are chosen anew after this iteration, a power of two, and after the powers that follow.
 const FIRST_REFINEMENT: u64 = 4;
-/// Radii, too, from this one on.
-const FIRST_RADII: u64 = 2 * FIRST_REFINEMENT;
 
-/// Whether anything is chosen anew after iteration `i`.
+/// Whether samples and radii are chosen anew after iteration `i`.
 pub(super) fn refines_after(i: u64) -> bool {
     i >= FIRST_REFINEMENT && i.is_power_of_two()
 }
 
-/// Whether radii are chosen anew after iteration `i`.
-pub(super) fn refines_radii_after(i: u64) -> bool {
-    i >= FIRST_RADII && refines_after(i)
-}
-
 /// Whether iteration `i` measures what the radii are chosen by: the first ones, whose radii differ much, do not.
 pub(super) fn measures(i: u64) -> bool {
-    i > FIRST_RADII / 2
+    i > FIRST_REFINEMENT / 2
 }
 
 #[cfg(test)]
