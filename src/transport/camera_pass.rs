@@ -347,7 +347,7 @@ impl Walk<'_> {
         }
         let mut radiance = Rgb::ZERO;
         if scatters(&scattering) && self.plan.finds_direct_light {
-            let direct = direct::direct_light(self.world, &vertex, sampler, &mut self.batch.counters);
+            let direct = direct::direct_light(self.world, self.plan, &vertex, sampler, &mut self.batch.counters);
             radiance = branch.throughput * direct;
         }
         // Where a texture is black, the rest of it in the pixel may not be.

@@ -2,7 +2,8 @@
 
 use super::bsdf;
 use super::counters::Counters;
-use super::light_choice::{self, CHOSEN};
+use super::light_choice;
+use super::plan::Plan;
 use crate::geometry::Sphere;
 use crate::math::{Frame, Ray, Rgb, Sampler, warp};
 use crate::world::{Light, Scattering, SurfacePoint, World};
@@ -34,11 +35,17 @@ struct LightSample {
 const NEAREST: f64 = 1e-4;
 
 /// Radiance towards `wo` of light that comes straight from the lights.
-pub(super) fn direct_light(world: &World, vertex: &Vertex, sampler: &mut Sampler, counters: &mut Counters) -> Rgb {
+pub(super) fn direct_light(
+    world: &World,
+    plan: &Plan,
+    vertex: &Vertex,
+    sampler: &mut Sampler,
+    counters: &mut Counters,
+) -> Rgb {
     let mut radiance = Rgb::ZERO;
     // Drawn only where there is something to choose.
-    let u = if world.lights.len() > CHOSEN { sampler.next_1d() } else { 0.0 };
-    light_choice::choose(&world.lights, vertex, u, |light, factor| {
+    let u = if light_choice::chooses(&plan.lights) { sampler.next_1d() } else { 0.0 };
+    light_choice::choose(&world.lights, &plan.lights, vertex, u, |light, factor| {
         radiance += factor * one_light(world, light, vertex, sampler, counters);
     });
     radiance

@@ -2,6 +2,7 @@
 //! matters, at a cost per light that is far below a ray's.
 
 use super::direct::Vertex;
+use super::relevance::Relevance;
 use crate::math::Rgb;
 use crate::world::Light;
 use glam::DVec3;
@@ -10,17 +11,35 @@ use std::f64::consts::PI;
 /// So many lights or fewer are all asked; of more, so many are chosen.
 pub(super) const CHOSEN: usize = 8;
 
-/// Calls `ask(light, factor)` for all of few lights, with the factor 1; of many, for [`CHOSEN`] (perhaps one of them
-/// several times) with factors that make up for the others in the mean.
+/// Whether there are lights that not all points ask.
+pub(super) fn chooses(relevances: &[Relevance]) -> bool {
+    relevances.len() > CHOSEN || relevances.iter().any(|relevance| relevance.asked < 1.0)
+}
+
+/// Calls `ask(light, factor)` for some of the lights, with factors that make up for the others in the mean: of few lights
+/// for each with the probability that its relevance says; of many, for [`CHOSEN`] (perhaps one of them several times).
 ///
 /// The choice is systematic resampling: equal steps from the random number `u` through the sum of the lights' expected
 /// shares, so that a light with more than a step is asked for sure.
-pub(super) fn choose(lights: &[Light], vertex: &Vertex, u: f64, mut ask: impl FnMut(&Light, f32)) {
-    if lights.len() <= CHOSEN {
+pub(super) fn choose(
+    lights: &[Light],
+    relevances: &[Relevance],
+    vertex: &Vertex,
+    u: f64,
+    mut ask: impl FnMut(&Light, f32),
+) {
+    if !chooses(relevances) {
         return lights.iter().for_each(|light| ask(light, 1.0));
     }
-    let shares: Vec<f64> = lights.iter().map(|light| expected_share(light, vertex)).collect();
-    let step = shares.iter().sum::<f64>() / CHOSEN as f64;
+    let share = |(light, relevance): (&Light, &Relevance)| relevance.asked * expected_share(light, vertex);
+    let (shares, step): (Vec<f64>, f64) = if lights.len() <= CHOSEN {
+        // Each light's share is at most a step.
+        (relevances.iter().map(|relevance| relevance.asked).collect(), 1.0)
+    } else {
+        let shares: Vec<f64> = lights.iter().zip(relevances).map(share).collect();
+        let step = shares.iter().sum::<f64>() / CHOSEN as f64;
+        (shares, step)
+    };
     let mut next = u * step;
     let mut passed = 0.0;
     for (light, share) in lights.iter().zip(shares) {
@@ -70,6 +89,10 @@ mod tests {
         Vertex { point, scattering, n_side: DVec3::Y, n_shade: DVec3::Y, wo: DVec3::Y }
     }
 
+    fn relevances(count: usize) -> Vec<Relevance> {
+        vec![Relevance { asked: 1.0, of_paths: 1.0 }; count]
+    }
+
     fn lights(count: u64) -> Vec<Light> {
         let light = |k: u64| {
             let mut s = Sampler::new(3, Stream::Test, 1, k);
@@ -93,7 +116,7 @@ mod tests {
         for round in 0..rounds {
             let u = (f64::from(round) + 0.5) / f64::from(rounds);
             let mut asked = 0;
-            choose(&lights, &vertex, u, |light, factor| {
+            choose(&lights, &relevances(100), &vertex, u, |light, factor| {
                 asked += 1;
                 let index = lights.iter().position(|other| std::ptr::eq(other, light)).expect("one of them");
                 sums[index] += f64::from(factor) / f64::from(rounds);
@@ -113,10 +136,28 @@ mod tests {
     #[test]
     fn few_are_all_asked() {
         let mut asked = 0;
-        choose(&lights(CHOSEN as u64), &vertex(), 0.5, |_, factor| {
+        choose(&lights(CHOSEN as u64), &relevances(CHOSEN), &vertex(), 0.5, |_, factor| {
             assert_eq!(factor, 1.0);
             asked += 1;
         });
         assert_eq!(asked, CHOSEN);
+    }
+
+    #[test]
+    fn those_out_of_view_are_asked_seldom_and_count_the_more() {
+        let mut relevances = relevances(3);
+        relevances[1].asked = 0.125;
+        let rounds = 1000;
+        let (mut asked, mut sums) = ([0; 3], [0.0; 3]);
+        let lights = lights(3);
+        for round in 0..rounds {
+            choose(&lights, &relevances, &vertex(), (f64::from(round) + 0.5) / f64::from(rounds), |light, factor| {
+                let index = lights.iter().position(|other| std::ptr::eq(other, light)).expect("one of them");
+                asked[index] += 1;
+                sums[index] += factor;
+            });
+        }
+        assert_eq!(asked, [1000, 125, 1000]);
+        assert!(sums.iter().all(|sum| (sum - 1000.0).abs() < 1e-3), "{sums:?}");
     }
 }

@@ -35,6 +35,7 @@ mod photon_map;
 mod photon_pass;
 mod pixel_samples;
 mod plan;
+mod relevance;
 mod schedule;
 mod sharing;
 mod tilt;
@@ -55,6 +56,7 @@ pub use photon_map::{PhotonMap, Query};
 pub use photon_pass::{GlobalBatch, global_photon_pass};
 pub use pixel_samples::PixelSamples;
 pub use plan::{CausticPlan, Plan, PlanNote};
+pub use relevance::Relevance;
 
 /// Rows of the film, from the top.
 pub type Rows = std::ops::Range<u32>;

@@ -17,6 +17,9 @@ use rayon::prelude::*;
 /// make single photons too bright.
 pub(super) const MAX_SHADING_FACTOR: f64 = 8.0;
 
+/// A point on this side of a surface is as far from it, parts of the world's radius.
+pub(super) const OFF_SURFACE: f64 = 1e-5;
+
 /// What one iteration's paths for interreflection leave.
 #[derive(Clone, Debug, Default)]
 pub struct GlobalBatch {
@@ -55,6 +58,16 @@ pub fn global_photon_pass(
         focused: blocks::join(&blocks, |block| &block.focused),
         counters: blocks.iter().map(|block| block.counters).sum(),
     })
+}
+
+/// A little before where one path of a light leaves photons.
+pub(super) fn one_path(world: &World, light: usize, sampler: Sampler) -> Vec<DVec3> {
+    let mut walk = Walk { world, batch: GlobalBatch::default() };
+    walk.trace_path(light, 1, sampler);
+    let GlobalBatch { photons, focused, .. } = walk.batch;
+    let before =
+        |photon: &Photon| world.center + photon.position.as_dvec3() + OFF_SURFACE * world.radius * photon.wi.as_dvec3();
+    photons.iter().chain(&focused).map(before).collect()
 }
 
 struct Walk<'a> {

@@ -8,6 +8,7 @@ use super::light_choice::CHOSEN;
 use super::maps::MapKind;
 use super::measured::Measured;
 use super::pixel_samples::SampleCounts;
+use super::relevance::Relevance;
 use super::schedule::{self, SMALLEST};
 use super::sharing::Lattice;
 use crate::geometry::Primitive;
@@ -36,6 +37,8 @@ pub struct Plan {
     pub finds_direct_light: bool,
     /// Caustics, where light can meet mirrors or glass.
     pub caustics: Option<CausticPlan>,
+    /// Of each light.
+    pub lights: Arc<Vec<Relevance>>,
     /// Paths that look for interreflection in a full iteration, by light; empty where there is none.
     pub global_paths: Vec<u64>,
     /// Radius of the density estimate of caustics after one full iteration, pixels' footprints.
@@ -94,18 +97,20 @@ impl Plan {
     /// The plan for a world.
     pub fn new(world: &World) -> Self {
         let mut notes = Notes::default();
-        let lit = notes.lights(world);
-        let caustics = if lit { plan_caustics(world, &mut notes) } else { None };
+        let lights = Relevance::of_lights(world);
+        let lit = notes.lights(world, &lights);
+        let caustics = if lit { plan_caustics(world, &lights, &mut notes) } else { None };
         if lit && caustics.is_none() {
             notes.skip(SEEN_INDIRECTLY, "there are no caustics to be seen");
         }
-        let global_paths = if lit { plan_interreflection(world, &mut notes) } else { Vec::new() };
+        let global_paths = if lit { plan_interreflection(world, &lights, &mut notes) } else { Vec::new() };
         notes.textures(world);
         notes.background(world);
         Self {
             camera: world.camera,
             finds_direct_light: true,
             caustics,
+            lights: Arc::new(lights),
             global_paths,
             caustic_radius: 2.0,
             global_radius: 24.0,
@@ -281,9 +286,10 @@ impl Plan {
     }
 }
 
+const OUT_OF_VIEW: &str = "lights out of view";
 const SEEN_INDIRECTLY: &str = "caustics in mirrors and glass";
 
-fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
+fn plan_caustics(world: &World, lights: &[Relevance], notes: &mut Notes) -> Option<CausticPlan> {
     const WHAT: &str = "caustics";
     let needless = if world.max_bounces < 2 {
         Some("max_bounces leaves only direct light")
@@ -298,7 +304,7 @@ fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
     }
     let guides: Vec<Guide> =
         world.lights.iter().enumerate().map(|(i, light)| Guide::build(world, light, i as u64)).collect();
-    let weights: Vec<f64> = world.lights.iter().zip(&guides).map(|(l, g)| power(l) * g.covered()).collect();
+    let weights = weights(world, lights).zip(&guides).map(|(weight, guide)| weight * guide.covered()).collect();
     let total = (world.camera.pixel_count() as f64 * CAUSTIC_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
     let paths = share(weights, total);
     let covered = guides.iter().map(Guide::covered).fold(0.0, f64::max);
@@ -316,7 +322,7 @@ fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
     let sends_on = |p: u32| shows_at(world, p) && (world.is_specular(p) || world.is_glossy(p));
     let (all, seen) = (0..world.surfaces.len() as u32)
         .filter(|&p| sends_on(p))
-        .fold((0, 0), |(all, seen), p| (all + 1, seen + usize::from(world.may_be_seen(p))));
+        .fold((0, 0), |(all, seen), p| (all + 1, seen + usize::from(world.may_be_in_view(p))));
     let needless = if world.max_bounces < 3 {
         Some("max_bounces leaves no path to a caustic that way")
     } else if seen == 0 {
@@ -332,7 +338,7 @@ fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
     needless.is_none()
 }
 
-fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
+fn plan_interreflection(world: &World, lights: &[Relevance], notes: &mut Notes) -> Vec<u64> {
     const WHAT: &str = "interreflection";
     let scattering: Vec<u32> = (0..world.surfaces.len() as u32).filter(|&p| world.scattered_bound(p) > 0.0).collect();
     let needless = if world.max_bounces < 2 {
@@ -356,7 +362,7 @@ fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
         },
     );
     let total = (world.camera.pixel_count() as f64 * GLOBAL_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
-    share(world.lights.iter().map(power).collect(), total)
+    share(weights(world, lights).collect(), total)
 }
 
 /// Whether light that a surface scatters may come back to it: it is not convex towards the lights, or a mirror or glass
@@ -373,8 +379,11 @@ fn may_light_itself(world: &World, primitive: u32) -> bool {
     sent_back || !is_convex
 }
 
-fn power(light: &Light) -> f64 {
-    f64::from(light.power().max_element())
+/// What paths of each light are worth: where a part `p` of them matters, the variance of what they find goes with
+/// `power^2 p`, and is least for all together with paths in proportion to its root.
+fn weights(world: &World, lights: &[Relevance]) -> impl Iterator<Item = f64> {
+    let power = |light: &Light| f64::from(light.power().max_element());
+    world.lights.iter().zip(lights).map(move |(light, relevance)| power(light) * relevance.of_paths.sqrt())
 }
 
 /// Numbers of paths in proportion to the weights, not 0 where the weight is not 0, about `total` together; multiples of
@@ -406,13 +415,13 @@ impl World {
         self.material_of(primitive).map_or(0.0, crate::world::Material::scattered_bound)
     }
 
-    fn is_glossy(&self, primitive: u32) -> bool {
+    pub(super) fn is_glossy(&self, primitive: u32) -> bool {
         let scattering = self.material_of(primitive).map(|m| m.scattering(glam::DVec2::ZERO));
         scattering.is_some_and(|s| matches!(s.lobe, Lobe::Phong { .. }))
     }
 
     /// Whether any part of a primitive may be inside the view pyramid.
-    fn may_be_seen(&self, primitive: u32) -> bool {
+    pub(super) fn may_be_in_view(&self, primitive: u32) -> bool {
         let bounds = self.aggregate.primitives()[primitive as usize].bounds();
         bounds.is_empty() || self.camera.may_see(bounds.center(), 0.5 * bounds.diagonal())
     }
@@ -431,7 +440,7 @@ impl Notes {
     }
 
     /// Whether there is light to transport.
-    fn lights(&mut self, world: &World) -> bool {
+    fn lights(&mut self, world: &World, lights: &[Relevance]) -> bool {
         const WHAT: &str = "direct light and photons";
         if world.lights.is_empty() {
             self.skip(WHAT, "there is no light that has any power");
@@ -448,6 +457,14 @@ impl Notes {
                 many => format!("{many} lights; each point asks {CHOSEN}, chosen by their share of its light"),
             };
             self.render("direct light", reason);
+            match lights.iter().filter(|light| light.asked < 1.0).count() {
+                0 => {}
+                unseen => {
+                    let all = lights.len();
+                    let reason = format!("{unseen} of {all} send nothing straight into view: few points ask them");
+                    self.skip(OUT_OF_VIEW, &reason);
+                }
+            }
             return true;
         }
         false

@@ -76,3 +76,81 @@ fn only_what_can_contribute_is_rendered() {
         assert_eq!(rendered(max_bounces, objects), expected, "{max_bounces} bounces, {objects:?}");
     }
 }
+
+/// A lamp in front of a wall, and one behind it that is twenty times as strong.
+fn two_lamps(objects: &str) -> String {
+    format!(
+        r#"{HEAD}
+    [[light]]
+    name = "outside"
+    type = "point"
+    position = [0, 0, -6]
+    intensity = [20, 20, 20]
+    [[object]]
+    name = "wall"
+    type = "quad"
+    material = "white"
+    corner = [-0.3, -1, -1]
+    edge_u = [0.6, 0, 0]
+    edge_v = [0, 1.5, 0]
+    {objects}"#
+    )
+}
+
+#[test]
+fn lamps_that_light_nothing_in_view_get_few_paths_and_shadow_rays() {
+    let plan = |objects: &str| {
+        let text = two_lamps(&format!("{}{objects}", floor("white")));
+        Plan::new(&prepare(&scene(&text).scene, &Location::Unsaved, None).expect("the scene can be prepared"))
+    };
+    // The floor is an endless plane: light from behind the wall reaches what the camera sees of it in front.
+    let closed =
+        "[[object]]\nname = \"lid\"\ntype = \"sphere\"\ncenter = [0, 0, -6]\nradius = 0.5\nmaterial = \"white\"\n";
+    let plan = [plan(""), plan(closed)];
+    assert_eq!(plan.each_ref().map(|plan| plan.lights[0].asked), [1.0; 2]);
+    assert_eq!(plan[0].lights[1].asked, 1.0, "what reaches the view is asked by all");
+    assert!(plan[1].lights[1].asked < 0.2);
+    assert!(plan[0].global_paths[1] > plan[0].global_paths[0], "the stronger one");
+    assert!(plan[1].global_paths[1] < plan[1].global_paths[0] && plan[1].global_paths[1] > 0, "but not quite none");
+    assert!(plan[1].notes.iter().any(|note| note.what == "lights out of view" && !note.rendered));
+}
+
+#[test]
+fn what_is_seen_in_a_mirror_is_in_view() {
+    let mirror =
+        "[[object]]\nname = \"mirror\"\ntype = \"sphere\"\ncenter = [1, 0, 0]\nradius = 0.5\nmaterial = \"mirror\"\n";
+    // Behind the camera a screen, lit from its far side's lamp: only the ball shows it.
+    let text = |mirror: &str| {
+        format!(
+            "{HEAD}{}{mirror}",
+            r#"
+    [[light]]
+    name = "behind"
+    type = "quad"
+    corner = [-1, 0, 8]
+    edge_u = [2, 0, 0]
+    edge_v = [0, 1, 0]
+    radiance = [1, 1, 1]
+    [[object]]
+    name = "screen"
+    type = "quad"
+    material = "white"
+    corner = [-2, -2, 10]
+    edge_u = [4, 0, 0]
+    edge_v = [0, 4, 0]
+    [[object]]
+    name = "ball"
+    type = "sphere"
+    material = "white"
+    center = [-0.5, 0, 0]
+    radius = 0.3
+"#
+        )
+    };
+    let asked = |text: String| {
+        let world = prepare(&scene(&text).scene, &Location::Unsaved, None).expect("the scene can be prepared");
+        Plan::new(&world).lights[1].asked
+    };
+    assert!(asked(text("")) < 0.2);
+    assert_eq!(asked(text(mirror)), 1.0);
+}
