@@ -2,7 +2,6 @@
 
 use super::bsdf;
 use super::counters::Counters;
-use super::light_choice;
 use super::plan::Plan;
 use crate::geometry::Sphere;
 use crate::math::{Frame, Ray, Rgb, Sampler, warp};
@@ -44,9 +43,9 @@ pub(super) fn direct_light(
 ) -> Rgb {
     let mut radiance = Rgb::ZERO;
     // Drawn only where there is something to choose.
-    let u = if light_choice::chooses(&plan.lights) { sampler.next_1d() } else { 0.0 };
-    light_choice::choose(&world.lights, &plan.lights, vertex, u, |light, factor| {
-        radiance += factor * one_light(world, light, vertex, sampler, counters);
+    let u = if plan.light_choice.is_needed() { sampler.next_1d() } else { 0.0 };
+    plan.light_choice.choose(vertex, u, |light, factor| {
+        radiance += factor * one_light(world, &world.lights[light], vertex, sampler, counters);
     });
     radiance
 }

@@ -4,45 +4,105 @@
 use super::direct::Vertex;
 use super::relevance::Relevance;
 use crate::math::Rgb;
-use crate::world::Light;
-use glam::DVec3;
+use crate::world::{Light, World};
+use glam::{DVec3, Vec3};
+use multiversion::multiversion;
 use std::f64::consts::PI;
 
 /// So many lights or fewer are all asked; of more, so many are chosen.
 pub(super) const CHOSEN: usize = 8;
+/// Lights whose shares are added up before any of them is looked at.
+const RUN: usize = 16;
 
-/// Whether there are lights that not all points ask.
-pub(super) fn chooses(relevances: &[Relevance]) -> bool {
-    relevances.len() > CHOSEN || relevances.iter().any(|relevance| relevance.asked < 1.0)
+/// What the choice must know of the lights.
+#[derive(Clone, Debug)]
+pub struct LightChoice {
+    /// How many of the points ask each light, where all lights are asked.
+    asked: Vec<f64>,
+    /// Whether not all points ask all of them.
+    is_needed: bool,
+    columns: Columns,
+    /// All places are relative to it.
+    center: DVec3,
 }
 
-/// Calls `ask(light, factor)` for some of the lights, with factors that make up for the others in the mean: of few lights
-/// for each with the probability that its relevance says; of many, for [`CHOSEN`] (perhaps one of them several times).
-///
-/// The choice is systematic resampling: equal steps from the random number `u` through the sum of the lights' expected
-/// shares, so that a light with more than a step is asked for sure.
-pub(super) fn choose(
-    lights: &[Light],
-    relevances: &[Relevance],
-    vertex: &Vertex,
-    u: f64,
-    mut ask: impl FnMut(&Light, f32),
-) {
-    if !chooses(relevances) {
-        return lights.iter().for_each(|light| ask(light, 1.0));
+/// The lights side by side.
+#[derive(Clone, Debug, Default)]
+struct Columns {
+    center: [Vec<f32>; 3],
+    /// The side that a quad shines to; 0 for others, which shine to all.
+    front: [Vec<f32>; 3],
+    /// Of a ball about the center that holds the light.
+    reach: Vec<f32>,
+    /// Intensity towards where it is strongest.
+    sent: Vec<f32>,
+}
+
+impl LightChoice {
+    /// For the lights of a world, by how much each matters.
+    pub(super) fn new(world: &World, relevances: &[Relevance]) -> Self {
+        Self::of(&world.lights, relevances, world.center)
     }
-    let share = |(light, relevance): (&Light, &Relevance)| relevance.asked * expected_share(light, vertex);
-    let (shares, step): (Vec<f64>, f64) = if lights.len() <= CHOSEN {
-        // Each light's share is at most a step.
-        (relevances.iter().map(|relevance| relevance.asked).collect(), 1.0)
-    } else {
-        let shares: Vec<f64> = lights.iter().zip(relevances).map(share).collect();
-        let step = shares.iter().sum::<f64>() / CHOSEN as f64;
-        (shares, step)
-    };
-    let mut next = u * step;
-    let mut passed = 0.0;
-    for (light, share) in lights.iter().zip(shares) {
+
+    fn of(lights: &[Light], relevances: &[Relevance], center: DVec3) -> Self {
+        let mut columns = Columns::default();
+        for (light, relevance) in lights.iter().zip(relevances) {
+            let front = if let Light::Quad { quad, .. } = light { quad.normal() } else { DVec3::ZERO };
+            push(&mut columns.center, (light.center() - center).as_vec3());
+            push(&mut columns.front, front.as_vec3());
+            columns.reach.push(light.reach() as f32);
+            columns.sent.push((relevance.asked * sent(light)) as f32);
+        }
+        let asked: Vec<f64> = relevances.iter().map(|relevance| relevance.asked).collect();
+        let is_needed = lights.len() > CHOSEN || asked.iter().any(|&part| part < 1.0);
+        Self { asked, is_needed, columns, center }
+    }
+
+    /// Whether there are lights that not all points ask.
+    pub(super) fn is_needed(&self) -> bool {
+        self.is_needed
+    }
+
+    /// Calls `ask(light, factor)` for some of the lights, by their places, with factors that make up for the others in the
+    /// mean: of few lights for each with the probability that its relevance says; of many, for [`CHOSEN`] (perhaps one of
+    /// them several times).
+    ///
+    /// The choice is systematic resampling: equal steps from the random number `u` through the sum of the lights' expected
+    /// shares, so that a light with more than a step is asked for sure.
+    pub(super) fn choose(&self, vertex: &Vertex, u: f64, mut ask: impl FnMut(usize, f32)) {
+        let count = self.asked.len();
+        if !self.is_needed {
+            return (0..count).for_each(|light| ask(light, 1.0));
+        }
+        if count <= CHOSEN {
+            resample(self.asked.iter().copied().enumerate(), 1.0, (0.0, u), &mut ask);
+            return;
+        }
+        let mut shares = vec![0.0; count];
+        let position = (vertex.point.position - self.center).as_vec3();
+        expected_shares(&self.columns, position, vertex.n_side.as_vec3(), &mut shares);
+        let runs = shares.chunks(RUN).map(|run| (run, run.iter().map(|&share| f64::from(share)).sum::<f64>()));
+        let step = runs.clone().map(|(_, sum)| sum).sum::<f64>() / CHOSEN as f64;
+        let (mut passed, mut next) = (0.0, u * step);
+        for (first, (run, sum)) in (0..).step_by(RUN).zip(runs) {
+            if next < passed + sum {
+                let shares = (first..).zip(run.iter().map(|&share| f64::from(share)));
+                next = resample(shares, step, (passed, next), &mut ask);
+            }
+            passed += sum;
+        }
+    }
+}
+
+/// Asks each light for each step that falls into its share, from the sum so far and the next step on; returns the step after
+/// the last.
+fn resample(
+    shares: impl Iterator<Item = (usize, f64)>,
+    step: f64,
+    (mut passed, mut next): (f64, f64),
+    ask: &mut impl FnMut(usize, f32),
+) -> f64 {
+    for (light, share) in shares {
         passed += share;
         // Written so that shares that are all 0, or not numbers, choose none.
         while next < passed {
@@ -50,29 +110,47 @@ pub(super) fn choose(
             next += step;
         }
     }
+    next
 }
 
-/// About how much light a point gets from a light if nothing is between; 0 only where it gets none.
-fn expected_share(light: &Light, vertex: &Vertex) -> f64 {
-    let offset = light.center() - vertex.point.position;
+fn push(columns: &mut [Vec<f32>; 3], value: Vec3) {
+    columns.iter_mut().zip(value.to_array()).for_each(|(column, x)| column.push(x));
+}
+
+/// Intensity of a light towards where it is strongest.
+fn sent(light: &Light) -> f64 {
     let strength = |c: Rgb| f64::from(c.max_element());
-    let sent = match light {
+    match light {
         Light::Point { intensity, .. } => strength(*intensity),
         Light::Sphere { sphere, radiance } => strength(*radiance) * PI * sphere.radius * sphere.radius,
-        Light::Quad { quad, radiance } if offset.dot(quad.normal()) < 0.0 => strength(*radiance) * quad.area(),
-        Light::Quad { .. } => 0.0,
-    };
-    sent * received(vertex, offset, light.reach())
+        Light::Quad { quad, radiance } => strength(*radiance) * quad.area(),
+    }
 }
 
-/// Inverse squared distance times about the cosine, of light from a ball of this radius at this offset; 0 only where the
-/// ball is below the horizon.
-fn received(vertex: &Vertex, offset: DVec3, radius: f64) -> f64 {
+/// About how much light a point gets from each light if nothing is between: intensity over squared distance times about the
+/// cosine, of a ball that holds the light; 0 only where it gets none.
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn expected_shares(lights: &Columns, position: Vec3, n_side: Vec3, shares: &mut [f32]) {
     /// Of the full cosine: a tilted shading normal may see what the surface hardly does.
-    const LEAST: f64 = 0.1;
-    let distance = offset.length().max(f64::MIN_POSITIVE);
-    let highest = (offset.dot(vertex.n_side) + radius) / distance;
-    if highest > 0.0 { highest.clamp(LEAST, 1.0) / (distance * distance).max(0.25 * radius * radius) } else { 0.0 }
+    const LEAST_COS: f32 = 0.1;
+    /// Sines of angles that are no more than rounding.
+    const ROUNDING: f32 = 1e-5;
+    let count = shares.len();
+    let [x, y, z] = lights.center.each_ref().map(|column| &column[..count]);
+    let [front_x, front_y, front_z] = lights.front.each_ref().map(|column| &column[..count]);
+    let (reach, sent) = (&lights.reach[..count], &lights.sent[..count]);
+    for k in 0..count {
+        let offset = [x[k] - position.x, y[k] - position.y, z[k] - position.z];
+        let squared = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
+        let squared = squared.max(f32::MIN_POSITIVE);
+        let distance = squared.sqrt();
+        let height = offset[0] * n_side.x + offset[1] * n_side.y + offset[2] * n_side.z;
+        let highest = (height + reach[k]) / distance;
+        let along_front = offset[0] * front_x[k] + offset[1] * front_y[k] + offset[2] * front_z[k];
+        let share = sent[k] * highest.clamp(LEAST_COS, 1.0) / squared.max(0.25 * reach[k] * reach[k]);
+        let is_lit = (highest > -ROUNDING) & (along_front <= ROUNDING * distance);
+        shares[k] = if is_lit { share } else { 0.0 };
+    }
 }
 
 #[cfg(test)]
@@ -89,8 +167,8 @@ mod tests {
         Vertex { point, scattering, n_side: DVec3::Y, n_shade: DVec3::Y, wo: DVec3::Y }
     }
 
-    fn relevances(count: usize) -> Vec<Relevance> {
-        vec![Relevance { asked: 1.0, of_paths: 1.0 }; count]
+    fn choice(lights: &[Light]) -> LightChoice {
+        LightChoice::of(lights, &vec![Relevance { asked: 1.0, of_paths: 1.0 }; lights.len()], DVec3::ZERO)
     }
 
     fn lights(count: u64) -> Vec<Light> {
@@ -111,19 +189,22 @@ mod tests {
     #[test]
     fn the_mean_is_all_lights() {
         let (vertex, lights) = (vertex(), lights(100));
+        let choice = choice(&lights);
         let rounds = 20_000;
         let mut sums = vec![0.0; lights.len()];
         for round in 0..rounds {
             let u = (f64::from(round) + 0.5) / f64::from(rounds);
             let mut asked = 0;
-            choose(&lights, &relevances(100), &vertex, u, |light, factor| {
+            choice.choose(&vertex, u, |light, factor| {
                 asked += 1;
-                let index = lights.iter().position(|other| std::ptr::eq(other, light)).expect("one of them");
-                sums[index] += f64::from(factor) / f64::from(rounds);
+                sums[light] += f64::from(factor) / f64::from(rounds);
             });
             assert!(asked == CHOSEN || asked == CHOSEN - 1, "{asked}: the last step may fall off by rounding");
         }
-        let shares: Vec<f64> = lights.iter().map(|light| expected_share(light, &vertex)).collect();
+        let mut shares = vec![0.0; lights.len()];
+        expected_shares(&choice.columns, Vec3::ZERO, Vec3::Y, &mut shares);
+        let shares: Vec<f64> = shares.into_iter().map(f64::from).collect();
+        assert!(shares.iter().any(|&share| share == 0.0), "some are below the horizon");
         let step = shares.iter().sum::<f64>() / CHOSEN as f64;
         for ((light, sum), share) in lights.iter().zip(sums).zip(shares) {
             let expected = if share > 0.0 { 1.0 } else { 0.0 };
@@ -136,7 +217,7 @@ mod tests {
     #[test]
     fn few_are_all_asked() {
         let mut asked = 0;
-        choose(&lights(CHOSEN as u64), &relevances(CHOSEN), &vertex(), 0.5, |_, factor| {
+        choice(&lights(CHOSEN as u64)).choose(&vertex(), 0.5, |_, factor| {
             assert_eq!(factor, 1.0);
             asked += 1;
         });
@@ -145,16 +226,15 @@ mod tests {
 
     #[test]
     fn those_out_of_view_are_asked_seldom_and_count_the_more() {
-        let mut relevances = relevances(3);
-        relevances[1].asked = 0.125;
+        let lights = lights(3);
+        let mut choice = choice(&lights);
+        (choice.asked[1], choice.is_needed) = (0.125, true);
         let rounds = 1000;
         let (mut asked, mut sums) = ([0; 3], [0.0; 3]);
-        let lights = lights(3);
         for round in 0..rounds {
-            choose(&lights, &relevances, &vertex(), (f64::from(round) + 0.5) / f64::from(rounds), |light, factor| {
-                let index = lights.iter().position(|other| std::ptr::eq(other, light)).expect("one of them");
-                asked[index] += 1;
-                sums[index] += factor;
+            choice.choose(&vertex(), (f64::from(round) + 0.5) / f64::from(rounds), |light, factor| {
+                asked[light] += 1;
+                sums[light] += factor;
             });
         }
         assert_eq!(asked, [1000, 125, 1000]);

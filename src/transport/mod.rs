@@ -49,6 +49,7 @@ pub use component::Component;
 pub use counters::Counters;
 pub use gather::{Gathered, gather};
 pub use guide::Guide;
+pub use light_choice::LightChoice;
 pub use maps::{MapKind, Maps, PerMap};
 pub use measured::Measured;
 pub use photon::Photon;

@@ -4,7 +4,7 @@ use super::Rows;
 use super::bandwidth::{self, Bandwidth, Contrasts, WIDER};
 use super::camera_pass::Clearance;
 use super::guide::Guide;
-use super::light_choice::CHOSEN;
+use super::light_choice::{CHOSEN, LightChoice};
 use super::maps::MapKind;
 use super::measured::Measured;
 use super::pixel_samples::SampleCounts;
@@ -39,6 +39,8 @@ pub struct Plan {
     pub caustics: Option<CausticPlan>,
     /// Of each light.
     pub lights: Arc<Vec<Relevance>>,
+    /// Which lights points ask for direct light.
+    pub light_choice: Arc<LightChoice>,
     /// Paths that look for interreflection in a full iteration, by light; empty where there is none.
     pub global_paths: Vec<u64>,
     /// Radius of the density estimate of caustics after one full iteration, pixels' footprints.
@@ -110,6 +112,7 @@ impl Plan {
             camera: world.camera,
             finds_direct_light: true,
             caustics,
+            light_choice: Arc::new(LightChoice::new(world, &lights)),
             lights: Arc::new(lights),
             global_paths,
             caustic_radius: 2.0,
