@@ -26,7 +26,7 @@
 //!                                                             |   │ camera pass   ─► visible points, direct     │
 //!                                                             |   │ gather        ─► radiance at visible points │
 //!                                                             |   │ commit        ─► film, all or nothing       │
-//!                                                             |   │   after 8, 16, ...: the plan is refined     │
+//!                                                             |   │   after 4, 8, ...: the plan is refined      │
 //!                                                             |   └──────────────────┬──────────────────────────┘
 //!    newest frame only, never an older generation ◄───────────┼── Frame { generation, iteration, image, stats }
 //!       ▼                                                     |
@@ -59,8 +59,8 @@
 //! - A pass is a function of what stands in its signature. Random numbers depend on (seed, stream, iteration, index,
 //!   dimension) alone, so one thread and many give the same bits.
 //! - An iteration is a pure function of (world, plan, seed, i), so films of parts can be merged. Iterations differ in size
-//!   by a fixed schedule and count in the mean by their size. The plan is refined after iterations 8, 16, 32, ... by
-//!   what the iterations since the last time measured: radii of density estimates.
+//!   by a fixed schedule and count in the mean by their size. The plan is refined after iterations 4, 8, 16, ... by
+//!   what iterations measured: radii of density estimates, and samples of each pixel.
 //! - A cancelled pass returns nothing, and the film changes only by whole iterations.
 //! - Colours are `f32`; positions, directions and distances are `f64`, because the offset that keeps a ray off the surface
 //!   it leaves has to be small against the scene and large against rounding. Photons are stored in `f32`, relative to the
@@ -87,6 +87,9 @@
 //! | leader | a visible point that gathers interreflection for its neighbours too |
 //! | component | direct light, caustics or interreflection: every path of light belongs to one of them |
 //! | contrast | how much brighter a visible point is in a wider disc: tells the bias of the density estimate |
+//! | varied | of a pixel: it shows several surfaces or a texture |
+//! | relevance | of a light: the part of it that reaches what the camera sees |
+//! | share | of a light: about the part of the direct light at a point that is its own |
 //! | bandwidth | radii of density estimates over the film, chosen by the contrasts |
 //! | focused | of photons: sent on by mirrors or glass after they were scattered |
 //! | lanes | numbers that one vector instruction handles side by side |
@@ -111,6 +114,8 @@
 //! - \[LafortuneWillems94\] E. Lafortune, Y. Willems, Using the Modified Phong Reflectance Model for Physically Based
 //!   Rendering, KU Leuven CW 197, 1994.
 //! - \[LaineKarras11\] S. Laine, T. Karras, Stratified Sampling for Stochastic Transparency, EGSR 2011.
+//! - \[Neyman34\] J. Neyman, On the Two Different Aspects of the Representative Method, J. Royal Statistical Society 97(4),
+//!   1934.
 //! - \[Reinhard02\] E. Reinhard et al., Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002.
 //! - \[ShirleyChiu97\] P. Shirley, K. Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997.
 //! - \[Ward88\] G. Ward, F. Rubinstein, R. Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988.

@@ -204,7 +204,7 @@ mod tests {
         let mut shares = vec![0.0; lights.len()];
         expected_shares(&choice.columns, Vec3::ZERO, Vec3::Y, &mut shares);
         let shares: Vec<f64> = shares.into_iter().map(f64::from).collect();
-        assert!(shares.iter().any(|&share| share == 0.0), "some are below the horizon");
+        assert!(shares.contains(&0.0), "some are below the horizon");
         let step = shares.iter().sum::<f64>() / CHOSEN as f64;
         for ((light, sum), share) in lights.iter().zip(sums).zip(shares) {
             let expected = if share > 0.0 { 1.0 } else { 0.0 };
