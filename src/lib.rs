@@ -88,7 +88,7 @@
 //! | component | direct light, caustics or interreflection: every path of light belongs to one of them |
 //! | contrast | how much brighter a visible point is in a wider disc: tells the bias of the density estimate |
 //! | varied | of a pixel: it shows several surfaces or a texture |
-//! | relevance | of a light: the part of it that reaches what the camera sees |
+//! | relevance | of a light: the part of its paths that reaches what the camera sees |
 //! | share | of a light: about the part of the direct light at a point that is its own |
 //! | bandwidth | radii of density estimates over the film, chosen by the contrasts |
 //! | focused | of photons: sent on by mirrors or glass after they were scattered |

@@ -115,7 +115,7 @@ fn speed(c: &mut Criterion) {
 fn scaling(c: &mut Criterion) {
     let mut group = c.benchmark_group("build");
     for (name, net) in [("hill", hill()[0]), ("teapot handle", teapot()[12])] {
-        group.bench_function(name, |b| b.iter(|| Patch::new(black_box(net))));
+        group.bench_function(name, |b| b.iter(|| ready(black_box(net))));
     }
     group.finish();
     for copies in [0, 1, 32, 1000] {
@@ -135,8 +135,15 @@ fn edited(patches: &Aggregate, net: &ControlNet) -> Aggregate {
     let mut net = *net;
     net.points[1][1].z += 0.1;
     let mut primitives = patches.primitives().to_vec();
-    primitives[0] = Primitive::Patch(Arc::new(Patch::new(net)));
+    primitives[0] = Primitive::Patch(Arc::new(ready(net)));
     patches.refitted(primitives)
+}
+
+/// A patch with all that the first ray would prepare.
+fn ready(net: ControlNet) -> Patch {
+    let patch = Patch::new(net);
+    patch.prepare();
+    patch
 }
 
 /// So many copies of some patches, side by side on a square.

@@ -1,9 +1,8 @@
 //! Light that leaves a light.
 
 use super::guide::Guide;
-use super::photon_pass::OFF_SURFACE;
-use crate::math::{Frame, Ray, Rgb, Sampler, octahedral, warp};
-use crate::world::{Light, Surface, World};
+use crate::math::{Frame, Rgb, Sampler, octahedral, warp};
+use crate::world::Light;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -61,15 +60,6 @@ pub(super) fn emit(light: &Light, sampler: &mut Sampler) -> Emission {
             Emission { origin: position, direction, flux: strength * PI as f32 }
         }
     }
-}
-
-/// A little before where a path from a light first meets an object; `None` where it meets none.
-pub(super) fn first_hit(world: &World, light: usize, sampler: &mut Sampler) -> Option<DVec3> {
-    let Emission { origin, direction, .. } = emit(&world.lights[light], sampler);
-    let ray = Ray { t_min: 1e-9 * world.radius, ..Ray::new(origin, direction) };
-    let hit = world.aggregate.closest_hit(&ray)?;
-    matches!(world.surfaces[hit.primitive as usize], Surface::Object { .. })
-        .then(|| ray.at(hit.t - OFF_SURFACE * world.radius))
 }
 
 /// A path that leaves a light in a direction from the guide; `None` where the light does not shine there.

@@ -220,7 +220,13 @@ impl Gatherer<'_> {
             MapKind::Global => plan.global_radius_at(footprint, point.clearance),
             MapKind::Focused => plan.focused_radius * footprint,
         };
-        let factor = plan.measured_shrink(kind, point.pixel).unwrap_or(self.shrink);
+        let is_patch = matches!(self.world.aggregate.primitives()[point.primitive as usize], Primitive::Patch(_));
+        let factor = match plan.measured_shrink(kind, point.pixel) {
+            None => self.shrink,
+            // Patches curve, and a disc on one sees others of its object.
+            Some(measured) if is_patch => measured.min(1.0),
+            Some(measured) => measured,
+        };
         self.limited(point, unshrunk * factor.max(1.0)) * factor.min(1.0)
     }
 

@@ -2,7 +2,6 @@
 //! matters, at a cost per light that is far below a ray's.
 
 use super::direct::Vertex;
-use super::relevance::Relevance;
 use crate::math::Rgb;
 use crate::world::{Light, World};
 use glam::{DVec3, Vec3};
@@ -17,10 +16,6 @@ const RUN: usize = 16;
 /// What the choice must know of the lights.
 #[derive(Clone, Debug)]
 pub struct LightChoice {
-    /// How many of the points ask each light, where all lights are asked.
-    asked: Vec<f64>,
-    /// Whether not all points ask all of them.
-    is_needed: bool,
     columns: Columns,
     /// All places are relative to it.
     center: DVec3,
@@ -39,44 +34,41 @@ struct Columns {
 }
 
 impl LightChoice {
-    /// For the lights of a world, by how much each matters.
-    pub(super) fn new(world: &World, relevances: &[Relevance]) -> Self {
-        Self::of(&world.lights, relevances, world.center)
+    /// For the lights of a world.
+    pub(super) fn new(world: &World) -> Self {
+        Self::of(&world.lights, world.center)
     }
 
-    fn of(lights: &[Light], relevances: &[Relevance], center: DVec3) -> Self {
+    fn of(lights: &[Light], center: DVec3) -> Self {
         let mut columns = Columns::default();
-        for (light, relevance) in lights.iter().zip(relevances) {
+        for light in lights {
             let front = if let Light::Quad { quad, .. } = light { quad.normal() } else { DVec3::ZERO };
             push(&mut columns.center, (light.center() - center).as_vec3());
             push(&mut columns.front, front.as_vec3());
             columns.reach.push(light.reach() as f32);
-            columns.sent.push((relevance.asked * sent(light)) as f32);
+            columns.sent.push(sent(light) as f32);
         }
-        let asked: Vec<f64> = relevances.iter().map(|relevance| relevance.asked).collect();
-        let is_needed = lights.len() > CHOSEN || asked.iter().any(|&part| part < 1.0);
-        Self { asked, is_needed, columns, center }
+        Self { columns, center }
     }
 
-    /// Whether there are lights that not all points ask.
+    fn count(&self) -> usize {
+        self.columns.sent.len()
+    }
+
+    /// Whether there are more lights than a point asks.
     pub(super) fn is_needed(&self) -> bool {
-        self.is_needed
+        self.count() > CHOSEN
     }
 
-    /// Calls `ask(light, factor)` for some of the lights, by their places, with factors that make up for the others in the
-    /// mean: of few lights for each with the probability that its relevance says; of many, for [`CHOSEN`] (perhaps one of
-    /// them several times).
+    /// Calls `ask(light, factor)` for all of few lights, with the factor 1; of many, for [`CHOSEN`] (perhaps one of them
+    /// several times), by their places, with factors that make up for the others in the mean.
     ///
     /// The choice is systematic resampling: equal steps from the random number `u` through the sum of the lights' expected
     /// shares, so that a light with more than a step is asked for sure.
     pub(super) fn choose(&self, vertex: &Vertex, u: f64, mut ask: impl FnMut(usize, f32)) {
-        let count = self.asked.len();
-        if !self.is_needed {
+        let count = self.count();
+        if !self.is_needed() {
             return (0..count).for_each(|light| ask(light, 1.0));
-        }
-        if count <= CHOSEN {
-            resample(self.asked.iter().copied().enumerate(), 1.0, (0.0, u), &mut ask);
-            return;
         }
         let mut shares = vec![0.0; count];
         let position = (vertex.point.position - self.center).as_vec3();
@@ -168,7 +160,7 @@ mod tests {
     }
 
     fn choice(lights: &[Light]) -> LightChoice {
-        LightChoice::of(lights, &vec![Relevance { asked: 1.0, of_paths: 1.0 }; lights.len()], DVec3::ZERO)
+        LightChoice::of(lights, DVec3::ZERO)
     }
 
     fn lights(count: u64) -> Vec<Light> {
@@ -222,22 +214,5 @@ mod tests {
             asked += 1;
         });
         assert_eq!(asked, CHOSEN);
-    }
-
-    #[test]
-    fn those_out_of_view_are_asked_seldom_and_count_the_more() {
-        let lights = lights(3);
-        let mut choice = choice(&lights);
-        (choice.asked[1], choice.is_needed) = (0.125, true);
-        let rounds = 1000;
-        let (mut asked, mut sums) = ([0; 3], [0.0; 3]);
-        for round in 0..rounds {
-            choice.choose(&vertex(), (f64::from(round) + 0.5) / f64::from(rounds), |light, factor| {
-                asked[light] += 1;
-                sums[light] += factor;
-            });
-        }
-        assert_eq!(asked, [1000, 125, 1000]);
-        assert!(sums.iter().all(|sum| (sum - 1000.0).abs() < 1e-3), "{sums:?}");
     }
 }

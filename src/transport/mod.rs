@@ -57,7 +57,6 @@ pub use photon_map::{PhotonMap, Query};
 pub use photon_pass::{GlobalBatch, global_photon_pass};
 pub use pixel_samples::PixelSamples;
 pub use plan::{CausticPlan, Plan, PlanNote};
-pub use relevance::Relevance;
 
 /// Rows of the film, from the top.
 pub type Rows = std::ops::Range<u32>;

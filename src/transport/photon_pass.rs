@@ -18,7 +18,7 @@ use rayon::prelude::*;
 pub(super) const MAX_SHADING_FACTOR: f64 = 8.0;
 
 /// A point on this side of a surface is as far from it, parts of the world's radius.
-pub(super) const OFF_SURFACE: f64 = 1e-5;
+const OFF_SURFACE: f64 = 1e-5;
 
 /// What one iteration's paths for interreflection leave.
 #[derive(Clone, Debug, Default)]
@@ -47,8 +47,9 @@ pub fn global_photon_pass(
             let paths = paths(&plan.global_paths[block.light]);
             let count = paths.end - paths.start;
             for index in block.paths.clone() {
-                let sampler = Sampler::new(seed, plan.stream(Stream::GlobalPhoton), block.light as u64, index);
-                walk.trace_path(block.light, count, sampler);
+                let mut sampler = Sampler::new(seed, plan.stream(Stream::GlobalPhoton), block.light as u64, index);
+                let flight = walk.start(block.light, count, &mut sampler);
+                walk.follow(flight, &mut sampler);
             }
             (!cancel.is_cancelled()).then_some(walk.batch)
         })
@@ -60,10 +61,12 @@ pub fn global_photon_pass(
     })
 }
 
-/// A little before where one path of a light leaves photons.
-pub(super) fn one_path(world: &World, light: usize, sampler: Sampler) -> Vec<DVec3> {
+/// A little before where one path of a light arrives at surfaces that scatter it, from the first one on.
+pub(super) fn one_path(world: &World, light: usize, mut sampler: Sampler) -> Vec<DVec3> {
     let mut walk = Walk { world, batch: GlobalBatch::default() };
-    walk.trace_path(light, 1, sampler);
+    // As if it had been scattered before: then photons tell of the first arrival, too.
+    let flight = Flight { was_scattered: true, ..walk.start(light, 1, &mut sampler) };
+    walk.follow(flight, &mut sampler);
     let GlobalBatch { photons, focused, .. } = walk.batch;
     let before =
         |photon: &Photon| world.center + photon.position.as_dvec3() + OFF_SURFACE * world.radius * photon.wi.as_dvec3();
@@ -89,19 +92,23 @@ struct Flight {
 }
 
 impl Walk<'_> {
-    fn trace_path(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
-        let Emission { origin, direction, flux } = emission::emit(&self.world.lights[light], &mut sampler);
+    /// A path at its light.
+    fn start(&mut self, light: usize, path_count: u64, sampler: &mut Sampler) -> Flight {
+        let Emission { origin, direction, flux } = emission::emit(&self.world.lights[light], sampler);
         self.batch.counters.global_paths += 1;
         let ray = Ray { t_min: 1e-9 * self.world.radius, ..Ray::new(origin, direction) };
-        let mut flight = Flight {
+        Flight {
             ray,
             flux: flux / path_count as f32,
             media: Media::default(),
             bounces: 0,
             was_scattered: false,
             is_focused: false,
-        };
-        while self.step(&mut flight, &mut sampler).is_some() {}
+        }
+    }
+
+    fn follow(&mut self, mut flight: Flight, sampler: &mut Sampler) {
+        while self.step(&mut flight, sampler).is_some() {}
     }
 
     /// To the next surface and off it; `None` where the path ends.

@@ -49,7 +49,7 @@ impl PixelSamples {
         self.count += other.count;
         self.sum += other.sum;
         self.squares += other.squares;
-        self.surface = other.surface;
+        self.surface = if other.count > 0 { other.surface } else { self.surface };
     }
 
     /// The mean of the samples; black where there are none.

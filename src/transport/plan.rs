@@ -8,7 +8,7 @@ use super::light_choice::{CHOSEN, LightChoice};
 use super::maps::MapKind;
 use super::measured::Measured;
 use super::pixel_samples::SampleCounts;
-use super::relevance::Relevance;
+use super::relevance;
 use super::schedule::{self, SMALLEST};
 use super::sharing::Lattice;
 use crate::geometry::Primitive;
@@ -37,8 +37,6 @@ pub struct Plan {
     pub finds_direct_light: bool,
     /// Caustics, where light can meet mirrors or glass.
     pub caustics: Option<CausticPlan>,
-    /// Of each light.
-    pub lights: Arc<Vec<Relevance>>,
     /// Which lights points ask for direct light.
     pub light_choice: Arc<LightChoice>,
     /// Paths that look for interreflection in a full iteration, by light; empty where there is none.
@@ -80,8 +78,8 @@ pub struct CausticPlan {
 
 /// Paths for interreflection in a full iteration, for each pixel: about as much work as the pixel's own paths.
 const GLOBAL_PATHS_PER_PIXEL: f64 = 4.0;
-/// Samples of a pixel in a full iteration. Photons are gathered for one of them, which is most of the work; the others
-/// find direct light, whose edges need them.
+/// Samples of a pixel in a full iteration as long as nothing was measured. Photons are gathered for one of them, which is most
+/// of the work; the others find direct light, whose edges need them.
 const CAMERA_SAMPLES: f64 = 4.0;
 /// Paths for caustics in a full iteration, for each pixel.
 const CAUSTIC_PATHS_PER_PIXEL: f64 = 2.0;
@@ -99,21 +97,20 @@ impl Plan {
     /// The plan for a world.
     pub fn new(world: &World) -> Self {
         let mut notes = Notes::default();
-        let lights = Relevance::of_lights(world);
-        let lit = notes.lights(world, &lights);
-        let caustics = if lit { plan_caustics(world, &lights, &mut notes) } else { None };
+        let lit = notes.lights(world);
+        let weights = if lit { weights(world, &mut notes) } else { Vec::new() };
+        let caustics = if lit { plan_caustics(world, &weights, &mut notes) } else { None };
         if lit && caustics.is_none() {
             notes.skip(SEEN_INDIRECTLY, "there are no caustics to be seen");
         }
-        let global_paths = if lit { plan_interreflection(world, &lights, &mut notes) } else { Vec::new() };
+        let global_paths = if lit { plan_interreflection(world, weights, &mut notes) } else { Vec::new() };
         notes.textures(world);
         notes.background(world);
         Self {
             camera: world.camera,
             finds_direct_light: true,
             caustics,
-            light_choice: Arc::new(LightChoice::new(world, &lights)),
-            lights: Arc::new(lights),
+            light_choice: Arc::new(LightChoice::new(world)),
             global_paths,
             caustic_radius: 2.0,
             global_radius: 24.0,
@@ -289,10 +286,11 @@ impl Plan {
     }
 }
 
-const OUT_OF_VIEW: &str = "lights out of view";
+/// If no more of a light's paths reach the view, it is said to be out of it.
+const FEW: f64 = 0.01;
 const SEEN_INDIRECTLY: &str = "caustics in mirrors and glass";
 
-fn plan_caustics(world: &World, lights: &[Relevance], notes: &mut Notes) -> Option<CausticPlan> {
+fn plan_caustics(world: &World, weights: &[f64], notes: &mut Notes) -> Option<CausticPlan> {
     const WHAT: &str = "caustics";
     let needless = if world.max_bounces < 2 {
         Some("max_bounces leaves only direct light")
@@ -307,7 +305,7 @@ fn plan_caustics(world: &World, lights: &[Relevance], notes: &mut Notes) -> Opti
     }
     let guides: Vec<Guide> =
         world.lights.iter().enumerate().map(|(i, light)| Guide::build(world, light, i as u64)).collect();
-    let weights = weights(world, lights).zip(&guides).map(|(weight, guide)| weight * guide.covered()).collect();
+    let weights = weights.iter().zip(&guides).map(|(weight, guide)| weight * guide.covered()).collect();
     let total = (world.camera.pixel_count() as f64 * CAUSTIC_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
     let paths = share(weights, total);
     let covered = guides.iter().map(Guide::covered).fold(0.0, f64::max);
@@ -341,7 +339,7 @@ fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
     needless.is_none()
 }
 
-fn plan_interreflection(world: &World, lights: &[Relevance], notes: &mut Notes) -> Vec<u64> {
+fn plan_interreflection(world: &World, weights: Vec<f64>, notes: &mut Notes) -> Vec<u64> {
     const WHAT: &str = "interreflection";
     let scattering: Vec<u32> = (0..world.surfaces.len() as u32).filter(|&p| world.scattered_bound(p) > 0.0).collect();
     let needless = if world.max_bounces < 2 {
@@ -365,7 +363,7 @@ fn plan_interreflection(world: &World, lights: &[Relevance], notes: &mut Notes) 
         },
     );
     let total = (world.camera.pixel_count() as f64 * GLOBAL_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
-    share(weights(world, lights).collect(), total)
+    share(weights, total)
 }
 
 /// Whether light that a surface scatters may come back to it: it is not convex towards the lights, or a mirror or glass
@@ -384,9 +382,16 @@ fn may_light_itself(world: &World, primitive: u32) -> bool {
 
 /// What paths of each light are worth: where a part `p` of them matters, the variance of what they find goes with
 /// `power^2 p`, and is least for all together with paths in proportion to its root.
-fn weights(world: &World, lights: &[Relevance]) -> impl Iterator<Item = f64> {
+fn weights(world: &World, notes: &mut Notes) -> Vec<f64> {
+    let relevances = relevance::of_lights(world);
+    let all = relevances.len();
+    match relevances.iter().filter(|&&part| part < FEW).count() {
+        0 => {}
+        few => notes
+            .skip("most paths of lights out of view", &format!("of {few} of {all} lights hardly any reach the view")),
+    }
     let power = |light: &Light| f64::from(light.power().max_element());
-    world.lights.iter().zip(lights).map(move |(light, relevance)| power(light) * relevance.of_paths.sqrt())
+    world.lights.iter().zip(relevances).map(|(light, part)| power(light) * part.sqrt()).collect()
 }
 
 /// Numbers of paths in proportion to the weights, not 0 where the weight is not 0, about `total` together; multiples of
@@ -443,7 +448,7 @@ impl Notes {
     }
 
     /// Whether there is light to transport.
-    fn lights(&mut self, world: &World, lights: &[Relevance]) -> bool {
+    fn lights(&mut self, world: &World) -> bool {
         const WHAT: &str = "direct light and photons";
         if world.lights.is_empty() {
             self.skip(WHAT, "there is no light that has any power");
@@ -460,14 +465,6 @@ impl Notes {
                 many => format!("{many} lights; each point asks {CHOSEN}, chosen by their share of its light"),
             };
             self.render("direct light", reason);
-            match lights.iter().filter(|light| light.asked < 1.0).count() {
-                0 => {}
-                unseen => {
-                    let all = lights.len();
-                    let reason = format!("{unseen} of {all} send nothing straight into view: few points ask them");
-                    self.skip(OUT_OF_VIEW, &reason);
-                }
-            }
             return true;
         }
         false

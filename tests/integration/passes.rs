@@ -3,8 +3,9 @@
 use crate::closed_forms::{scene, session};
 use glam::DVec3;
 use patchlight::engine::{FilmSums, Session};
+use patchlight::geometry::Primitive;
 use patchlight::scene::Location;
-use patchlight::transport::{Cancel, Photon, Plan, caustic_photon_pass};
+use patchlight::transport::{Cancel, Photon, Plan, camera_pass, caustic_photon_pass, global_photon_pass};
 use patchlight::world::{World, prepare};
 
 fn world(text: &str) -> World {
@@ -34,6 +35,37 @@ fn a_glass_ball_keeps_no_light() {
         // Paths that were reflected 16 times inside are cut; Sobol points cover the rim of the ball to about 0.1 %.
         assert!((ratio - 1.0).abs() < 3e-3, "{ratio} of the light came out");
     }
+}
+
+/// What no ray comes near is not made ready: a patch outside the room.
+#[test]
+fn a_patch_that_no_ray_comes_near_is_never_prepared() {
+    let patch = |name: &str, x: f64| {
+        let row = |j: f64| (0..4).map(|i| format!("[{}, {}, 0]", x + 0.1 * f64::from(i), 0.1 * j)).collect::<Vec<_>>();
+        let points = [0.0, 1.0, 2.0, 3.0].map(|j| format!("[{}]", row(j).join(", "))).join(", ");
+        format!("[[object]]\nname = \"{name}\"\ntype = \"bezier\"\nmaterial = \"wall\"\npatches = [[{points}]]\n")
+    };
+    let text = format!(
+        "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 50\n[film]\nwidth = 128\nheight = 128
+        [[material]]\nname = \"wall\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
+        [[object]]\nname = \"room\"\ntype = \"sphere\"\ncenter = [0, 0, 2]\nradius = 5\nmaterial = \"wall\"
+        {}{}[[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 2]\nintensity = [1, 2, 3]\n",
+        patch("outside", 10.0),
+        patch("inside", 0.2),
+    );
+    let world = world(&text);
+    let plan = Plan::new(&world);
+    for i in 1..=4 {
+        let rows = 0..world.camera.height;
+        let seen = camera_pass(&world, &plan, &rows, 1, i, Cancel::NEVER).expect("never cancelled");
+        let photons = global_photon_pass(&world, &plan, 1, i, Cancel::NEVER).expect("never cancelled");
+        assert!(!seen.visible_points.is_empty() && photons.counters.global_paths > 0);
+    }
+    let patches = world.aggregate.primitives().iter().filter_map(|primitive| match primitive {
+        Primitive::Patch(patch) => Some(patch.is_prepared()),
+        _ => None,
+    });
+    assert_eq!(patches.collect::<Vec<_>>(), [false, true]);
 }
 
 /// C9: a light on the rim of a cylindrical mirror of radius R makes a cardioid whose cusp lies R / 3 beyond the centre.

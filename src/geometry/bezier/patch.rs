@@ -9,14 +9,15 @@ use super::unit::{UnitMap, UnitRay};
 use crate::math::lanes::{LANES, set_bits};
 use crate::math::{Aabb, Ray};
 use glam::DVec3;
+use std::sync::OnceLock;
 
-/// A patch made ready to be met by rays. Immutable.
+/// A patch to be met by rays. The first one that comes near makes it ready, so that one that is hidden costs nothing.
 #[derive(Clone, Debug)]
 pub struct Patch {
     net: ControlNet,
     unit_map: UnitMap,
     unit_net: ControlNet,
-    prepared: Prepared,
+    prepared: OnceLock<Prepared>,
 }
 
 /// What rays in unit space need.
@@ -46,15 +47,31 @@ impl From<Hit> for PatchHit {
 }
 
 impl Patch {
-    /// Prepares a patch. Coordinates that are not finite give a patch that no ray meets.
+    /// The patch of a net. Coordinates that are not finite give a patch that no ray meets.
     pub fn new(net: ControlNet) -> Self {
         // No ray meets an empty box.
         let bounds = if net.is_finite() { net.bounds() } else { Aabb::EMPTY };
         let unit_map = UnitMap::new(bounds.center(), bounds.diagonal());
         let unit_net = net.map(|p| unit_map.point(p));
-        let rows = RowNet::new(&unit_net);
-        let prepared = Prepared { net: rows, power: PowerForm::new(&unit_net), tree: PartTree::new(&rows) };
-        Self { net, unit_map, unit_net, prepared }
+        Self { net, unit_map, unit_net, prepared: OnceLock::new() }
+    }
+
+    /// What rays need; the first call prepares it.
+    fn prepared(&self) -> &Prepared {
+        self.prepared.get_or_init(|| {
+            let rows = RowNet::new(&self.unit_net);
+            Prepared { net: rows, power: PowerForm::new(&self.unit_net), tree: PartTree::new(&rows) }
+        })
+    }
+
+    /// Makes the patch ready now; else the first ray that comes near does.
+    pub fn prepare(&self) {
+        self.prepared();
+    }
+
+    /// Whether anything made it ready.
+    pub fn is_prepared(&self) -> bool {
+        self.prepared.get().is_some()
     }
 
     /// The control points.
@@ -71,7 +88,8 @@ impl Patch {
 
     /// The nearest hit with `t_min < t < t_max`.
     pub fn intersect(&self, ray: &Ray) -> Option<PatchHit> {
-        Some(nearest_hit(&self.prepared, self.unit_map.ray(ray)?)?.into())
+        let ray = self.unit_map.ray(ray)?;
+        Some(nearest_hit(self.prepared(), ray)?.into())
     }
 
     /// The nearest hits of those rays whose bits are set in `counting`: the same as one by one, but quicker for rays that
@@ -81,12 +99,12 @@ impl Patch {
         for k in set_bits(counting) {
             unit_rays[k] = self.unit_map.ray(&rays[k]).unwrap_or(UnitRay::NONE);
         }
-        nearest_hits(&self.prepared, &unit_rays).map(|hit| hit.map(PatchHit::from))
+        nearest_hits(self.prepared(), &unit_rays).map(|hit| hit.map(PatchHit::from))
     }
 
     /// Whether the ray meets the patch at any `t_min < t < t_max`.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.unit_map.ray(ray).is_some_and(|ray| has_hit(&self.prepared, ray))
+        self.unit_map.ray(ray).is_some_and(|ray| has_hit(self.prepared(), ray))
     }
 
     /// How far a point is from boxes that hold the patch closely, or `limit` if that is less.
@@ -96,7 +114,7 @@ impl Patch {
             return limit;
         }
         far.max(
-            self.prepared.tree.distance(self.unit_map.point(point), limit * self.unit_map.scale())
+            self.prepared().tree.distance(self.unit_map.point(point), limit * self.unit_map.scale())
                 / self.unit_map.scale(),
         )
     }
@@ -106,9 +124,9 @@ impl Patch {
         unit_normal(&self.unit_net, u, v)
     }
 
-    /// Memory of the patch with everything it owns.
+    /// Memory of the patch with everything it owns so far.
     pub fn memory_bytes(&self) -> usize {
-        size_of::<Self>() + self.prepared.tree.heap_bytes()
+        size_of::<Self>() + self.prepared.get().map_or(0, |prepared| prepared.tree.heap_bytes())
     }
 }
 
@@ -151,6 +169,7 @@ mod tests {
             let normal = patch.normal(f64::from(k / 5) / 4.0, f64::from(k % 5) / 4.0);
             assert!(normal.is_normalized(), "{name}: {normal}");
         }
+        patch.prepare();
         assert!(patch.memory_bytes() < 65_536, "{name}: {} bytes", patch.memory_bytes());
     }
 
@@ -217,6 +236,7 @@ mod tests {
             let net = ControlNet { points: from_fn(|i| from_fn(|j| DVec3::from_array(at(4 * i + j)))) };
             let ray = Ray::new(DVec3::from_array(origin), DVec3::from_array(direction.map(round)));
             let patch = Patch::new(net);
+            patch.prepare();
             prop_assert!(patch.memory_bytes() < 65_536, "{} bytes", patch.memory_bytes());
             if let Some(hit) = patch.intersect(&ray) {
                 // 1e-9 of the size is the largest piece that counts as touching.
