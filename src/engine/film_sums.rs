@@ -72,9 +72,10 @@ impl FilmSums {
         LinearImage { width: self.width, height: self.height, pixels }
     }
 
-    /// Estimate of the RMSE of the image over its mean, from the difference of the means of the first iterations and of the
-    /// others; it does not see bias. `None` before the second iteration and for a black picture.
-    pub fn error_estimate(&self) -> Option<f64> {
+    /// Estimate of the RMSE of the image over its mean: of its noise, from the difference of the means of the first iterations and
+    /// of the others, and of its bias, whose mean square over pixels and channels is given. `None` before the second iteration
+    /// and for a black picture.
+    pub fn error_estimate(&self, squared_bias: f64) -> Option<f64> {
         let other_weight = self.weight - self.first_weight;
         if !(other_weight > 0.0 && self.first_weight > 0.0) {
             return None;
@@ -89,7 +90,7 @@ impl FilmSums {
         let part = (self.first_weight * other_weight).sqrt() / self.weight;
         let values = 3.0 * self.all.len() as f64;
         let mean = total / values / self.weight;
-        (mean > 0.0).then(|| part * (squares / values).sqrt() / mean)
+        (mean > 0.0).then(|| (part * part * squares / values + squared_bias).sqrt() / mean)
     }
 }
 
@@ -122,13 +123,13 @@ mod tests {
     #[test]
     fn two_parts_estimate_the_error() {
         let mut film = FilmSums::new(20, 20);
-        assert_eq!(film.error_estimate(), None);
+        assert_eq!(film.error_estimate(0.0), None);
         for i in 1..=64 {
             film.commit(1.0, &noise(i));
             // Uniform numbers have the standard deviation 0.2887 and the mean 0.5; 400 pixels know it to 4 %.
             let expected = 0.577 / (i as f64).sqrt();
             let off = |estimate: f64| (estimate / expected - 1.0).abs();
-            assert!(film.error_estimate().map_or(i == 1, |estimate| off(estimate) < 0.16), "iteration {i}");
+            assert!(film.error_estimate(0.0).map_or(i == 1, |estimate| off(estimate) < 0.16), "iteration {i}");
         }
     }
 

@@ -125,7 +125,11 @@ impl Session {
     /// Whether the estimate of the error is known, and no more than this. A black picture never has an estimate, and no error
     /// either.
     pub fn reaches(&self, error: f64) -> bool {
-        self.iterations() >= 2 && self.film.error_estimate().is_none_or(|estimate| estimate <= error)
+        self.iterations() >= 2 && self.error_estimate().is_none_or(|estimate| estimate <= error)
+    }
+
+    fn error_estimate(&self) -> Option<f64> {
+        self.film.error_estimate(self.measured.as_ref().map_or(0.0, Measured::squared_bias))
     }
 
     /// Seconds that iterations took.
@@ -161,7 +165,7 @@ impl Session {
         Stats {
             iterations: self.film.iterations(),
             radius: self.plan.radius_at(distance, self.film.iterations()),
-            error_estimate: self.film.error_estimate(),
+            error_estimate: self.error_estimate(),
             ..stats(&self.counters, self.passes, self.seconds)
         }
     }

@@ -120,13 +120,15 @@ fn sent(light: &Light) -> f64 {
 }
 
 /// About how much light a point gets from each light if nothing is between: intensity over squared distance times about the
-/// cosine, of a ball that holds the light; 0 only where it gets none.
+/// cosine there, of a ball that holds the light; 0 only where it gets none.
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 fn expected_shares(lights: &Columns, position: Vec3, n_side: Vec3, shares: &mut [f32]) {
     /// Of the full cosine: a tilted shading normal may see what the surface hardly does.
     const LEAST_COS: f32 = 0.1;
     /// Sines of angles that are no more than rounding.
     const ROUNDING: f32 = 1e-5;
+    /// Of the cosine at a quad: at one that is seen edge-on rounding may hide which side is seen.
+    const LEAST_COS_OF_QUAD: f32 = 1e-3;
     let count = shares.len();
     let [x, y, z] = lights.center.each_ref().map(|column| &column[..count]);
     let [front_x, front_y, front_z] = lights.front.each_ref().map(|column| &column[..count]);
@@ -139,7 +141,10 @@ fn expected_shares(lights: &Columns, position: Vec3, n_side: Vec3, shares: &mut 
         let height = offset[0] * n_side.x + offset[1] * n_side.y + offset[2] * n_side.z;
         let highest = (height + reach[k]) / distance;
         let along_front = offset[0] * front_x[k] + offset[1] * front_y[k] + offset[2] * front_z[k];
-        let share = sent[k] * highest.clamp(LEAST_COS, 1.0) / squared.max(0.25 * reach[k] * reach[k]);
+        let is_quad = front_x[k] * front_x[k] + front_y[k] * front_y[k] + front_z[k] * front_z[k] > 0.5;
+        let cos_of_quad = (-along_front / distance).clamp(LEAST_COS_OF_QUAD, 1.0);
+        let sent_here = if is_quad { sent[k] * cos_of_quad } else { sent[k] };
+        let share = sent_here * highest.clamp(LEAST_COS, 1.0) / squared.max(0.25 * reach[k] * reach[k]);
         let is_lit = (highest > -ROUNDING) & (along_front <= ROUNDING * distance);
         shares[k] = if is_lit { share } else { 0.0 };
     }

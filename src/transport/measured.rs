@@ -10,6 +10,8 @@ pub struct Measured {
     /// Of the iterations since radii were chosen.
     pub(super) contrasts: Contrasts,
     /// Of all iterations.
+    all_contrasts: Contrasts,
+    /// Of all iterations.
     pub(super) samples: FilmSamples,
     size: [u32; 2],
 }
@@ -19,6 +21,7 @@ impl Measured {
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             contrasts: Contrasts::new(width, height),
+            all_contrasts: Contrasts::new(width, height),
             samples: FilmSamples::new(width, height),
             size: [width, height],
         }
@@ -27,7 +30,14 @@ impl Measured {
     /// Adds what an iteration measured, for each pixel of the film.
     pub fn add(&mut self, iteration: u64, contrasts: &[PerMap<f32>], samples: &[PixelSamples]) {
         self.contrasts.add(iteration, contrasts);
+        self.all_contrasts.add(iteration, contrasts);
         self.samples.add(samples);
+    }
+
+    /// Estimate of the mean square, over pixels and channels, of the picture's bias by density estimates; noisy while iterations
+    /// are few, never negative.
+    pub fn squared_bias(&self) -> f64 {
+        self.all_contrasts.squared_bias()
     }
 
     /// Forgets what belongs to the radii so far.

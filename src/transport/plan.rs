@@ -98,12 +98,11 @@ impl Plan {
     pub fn new(world: &World) -> Self {
         let mut notes = Notes::default();
         let lit = notes.lights(world);
-        let weights = if lit { weights(world, &mut notes) } else { Vec::new() };
-        let caustics = if lit { plan_caustics(world, &weights, &mut notes) } else { None };
+        let caustics = if lit { plan_caustics(world, &mut notes) } else { None };
         if lit && caustics.is_none() {
             notes.skip(SEEN_INDIRECTLY, "there are no caustics to be seen");
         }
-        let global_paths = if lit { plan_interreflection(world, weights, &mut notes) } else { Vec::new() };
+        let global_paths = if lit { plan_interreflection(world, &mut notes) } else { Vec::new() };
         notes.textures(world);
         notes.background(world);
         Self {
@@ -290,7 +289,7 @@ impl Plan {
 const FEW: f64 = 0.01;
 const SEEN_INDIRECTLY: &str = "caustics in mirrors and glass";
 
-fn plan_caustics(world: &World, weights: &[f64], notes: &mut Notes) -> Option<CausticPlan> {
+fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
     const WHAT: &str = "caustics";
     let needless = if world.max_bounces < 2 {
         Some("max_bounces leaves only direct light")
@@ -305,7 +304,7 @@ fn plan_caustics(world: &World, weights: &[f64], notes: &mut Notes) -> Option<Ca
     }
     let guides: Vec<Guide> =
         world.lights.iter().enumerate().map(|(i, light)| Guide::build(world, light, i as u64)).collect();
-    let weights = weights.iter().zip(&guides).map(|(weight, guide)| weight * guide.covered()).collect();
+    let weights = world.lights.iter().zip(&guides).map(|(light, guide)| power(light) * guide.covered()).collect();
     let total = (world.camera.pixel_count() as f64 * CAUSTIC_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
     let paths = share(weights, total);
     let covered = guides.iter().map(Guide::covered).fold(0.0, f64::max);
@@ -339,7 +338,7 @@ fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
     needless.is_none()
 }
 
-fn plan_interreflection(world: &World, weights: Vec<f64>, notes: &mut Notes) -> Vec<u64> {
+fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
     const WHAT: &str = "interreflection";
     let scattering: Vec<u32> = (0..world.surfaces.len() as u32).filter(|&p| world.scattered_bound(p) > 0.0).collect();
     let needless = if world.max_bounces < 2 {
@@ -363,7 +362,7 @@ fn plan_interreflection(world: &World, weights: Vec<f64>, notes: &mut Notes) -> 
         },
     );
     let total = (world.camera.pixel_count() as f64 * GLOBAL_PATHS_PER_PIXEL).clamp(LEAST_PATHS, MOST_PATHS);
-    share(weights, total)
+    share(weights(world, notes), total)
 }
 
 /// Whether light that a surface scatters may come back to it: it is not convex towards the lights, or a mirror or glass
@@ -380,17 +379,19 @@ fn may_light_itself(world: &World, primitive: u32) -> bool {
     sent_back || !is_convex
 }
 
-/// What paths of each light are worth: where a part `p` of them matters, the variance of what they find goes with
-/// `power^2 p`, and is least for all together with paths in proportion to its root.
+fn power(light: &Light) -> f64 {
+    f64::from(light.power().max_element())
+}
+
+/// What paths of each light are worth that are not aimed: where a part `p` of them matters, the variance of what they find goes
+/// with `power^2 p`, and is least for all together with paths in proportion to its root.
 fn weights(world: &World, notes: &mut Notes) -> Vec<f64> {
     let relevances = relevance::of_lights(world);
-    let all = relevances.len();
-    match relevances.iter().filter(|&&part| part < FEW).count() {
-        0 => {}
-        few => notes
-            .skip("most paths of lights out of view", &format!("of {few} of {all} lights hardly any reach the view")),
+    let (all, few) = (relevances.len(), relevances.iter().filter(|&&part| part < FEW).count());
+    if 0 < few && few < all {
+        let reason = format!("of {few} of {all} lights hardly any reach the view");
+        notes.skip("most paths of lights out of view", &reason);
     }
-    let power = |light: &Light| f64::from(light.power().max_element());
     world.lights.iter().zip(relevances).map(|(light, part)| power(light) * part.sqrt()).collect()
 }
 
