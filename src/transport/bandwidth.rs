@@ -95,7 +95,7 @@ impl Sums {
     }
 }
 
-/// The contrasts that iterations with the same radii measured: how much brighter pixels are in wider discs.
+/// The contrasts that some iterations measured: how much brighter pixels are in wider discs.
 #[derive(Clone, Debug)]
 pub(super) struct Contrasts {
     cells: Cells,

@@ -21,7 +21,7 @@ const MOST_STEPS: usize = 100;
 /// run through either of them, where few samples miss it.
 const REACH: usize = 1;
 
-/// What the samples of a pixel had in common.
+/// Sums over samples of a pixel, by which it is told how much they differ.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PixelSamples {
     /// How many there were.
@@ -165,7 +165,7 @@ mod tests {
     const SIZE: u32 = 16;
     const PIXELS: u32 = SIZE * SIZE;
 
-    /// Eight samples a pixel: one on the surface 2 with the first radiance, the others on the surface 1 with the second.
+    /// Eight samples a pixel: one with the first radiance, the others with the second.
     fn film(radiances: impl Fn(u32) -> [f32; 2], is_on_an_edge: impl Fn(u32) -> bool) -> FilmSamples {
         let mut film = FilmSamples::new(SIZE, SIZE);
         let pixel = |pixel| {

@@ -26,8 +26,8 @@ fn parts_add_up_to_the_picture() {
         difference += (sum - *pixel).abs().element_sum();
         total += pixel.element_sum();
     }
-    // The same paths, as long as nothing was measured. But at the feet of objects the polygons that tell what is in view reach as far as the largest disc,
-    // and so they differ a little on some pixels.
+    // The same paths, as long as nothing was measured. But at the feet of objects the polygons that tell what is in view reach
+    // as far as the largest disc, and so they differ a little on some pixels.
     assert!(difference < 1e-4 * total, "{difference} of {total}");
     for part in &parts {
         assert!(part.pixels.iter().any(|pixel| pixel.max_element() > 0.0), "every part is there");
