@@ -65,8 +65,6 @@ pub struct VisiblePoint {
     pub facets: u32,
     /// Whether nothing is between it and the camera.
     pub seen_directly: bool,
-    /// Whether the camera sees it directly and photons are gathered nowhere else for its pixel.
-    pub fills_pixel: bool,
 }
 
 /// What a path of a pixel met where others of its paths met the same surface.
@@ -380,7 +378,6 @@ impl Walk<'_> {
             first_facet: 0,
             facets: 0,
             seen_directly: branch.bounces == 0,
-            fills_pixel: branch.bounces == 0 && self.gather_weight == 1.0,
         }
     }
 

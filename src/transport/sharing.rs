@@ -74,7 +74,7 @@ impl Lattice {
 
     /// Whether what a point gathers depends on its place alone.
     fn may_share(&self, point: &VisiblePoint) -> bool {
-        point.fills_pixel && (self.is_draft || (point.n_shade == point.n_side && point.facets == 0))
+        self.is_draft || (point.n_shade == point.n_side && point.facets == 0)
     }
 }
 
@@ -84,30 +84,48 @@ impl Sharing {
         Self { leading: Vec::new(), leader: vec![None; points] }
     }
 
-    /// For some visible points; `radius` tells that of a point's disc.
+    /// For some visible points, those of a pixel one after the other; `radius` tells that of a point's disc.
     pub(super) fn new(lattice: Lattice, points: &[VisiblePoint], radius: impl Fn(&VisiblePoint) -> f64) -> Self {
         let first = points.iter().map(|point| point.pixel).min().unwrap_or(0);
         let last = points.iter().map(|point| point.pixel).max().unwrap_or(0);
         let mut leading = Vec::new();
-        let mut place = vec![None; (last - first) as usize + 1];
+        // Of each pixel, in `leading`.
+        let mut places = vec![0..0; (last - first) as usize + 1];
         for (index, point) in (0..).zip(points) {
             let leads = lattice.may_share(point) && lattice.leader(point.pixel) == Some(point.pixel);
             // What stands nearer would hide some of the disc.
             if leads && point.clearance.standing >= WIDER * radius(point) {
-                place[(point.pixel - first) as usize] = Some(leading.len() as u32);
+                let places = &mut places[(point.pixel - first) as usize];
+                if places.start == places.end {
+                    *places = leading.len()..leading.len();
+                }
                 leading.push(index);
+                places.end = leading.len();
             }
         }
-        let leader_of = |point: &VisiblePoint| {
+        let leader_of = |(index, point): (u32, &VisiblePoint)| {
             let pixel = lattice.leader(point.pixel).filter(|_| lattice.may_share(point))?;
-            let place = (*place.get(pixel.checked_sub(first)? as usize)?)?;
-            let leader = &points[leading[place as usize] as usize];
-            let near = f64::from(leader.position.distance(point.position)) <= PART_OF_RADIUS * radius(leader);
-            let alike = leader.tag == point.tag && leader.n_side.dot(point.n_side) >= LEAST_COS;
-            (pixel == point.pixel || (near && alike)).then_some(place)
+            let mut places = places.get(pixel.checked_sub(first)? as usize)?.clone();
+            if pixel == point.pixel {
+                return places.find(|&place| leading[place] == index);
+            }
+            let leader = |place: usize| &points[leading[place] as usize];
+            let distance = |place| leader(place).position.distance(point.position);
+            let nearest = places
+                .filter(|&place| leader(place).is_alike(point))
+                .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))?;
+            (f64::from(distance(nearest)) <= PART_OF_RADIUS * radius(leader(nearest))).then_some(nearest)
         };
-        let leader = points.iter().map(leader_of).collect();
+        let leader = (0..).zip(points).map(leader_of).map(|place| place.map(|place| place as u32)).collect();
         Self { leading, leader }
+    }
+}
+
+impl VisiblePoint {
+    /// Whether the same photons count here, and their light falls in alike.
+    fn is_alike(&self, other: &Self) -> bool {
+        (self.tag, self.photon_bounces) == (other.tag, other.photon_bounces)
+            && self.n_side.dot(other.n_side) >= LEAST_COS
     }
 }
 

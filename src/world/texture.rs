@@ -8,8 +8,17 @@ use glam::DVec2;
 pub struct Image {
     width: usize,
     height: usize,
-    /// Row by row from the top.
-    texels: Vec<Rgb>,
+    texels: Texels,
+    /// Linear value of each code of the file.
+    values: Vec<f32>,
+}
+
+/// Codes of the file's channels, row by row from the top: a fraction of the memory of linear values, whose cache misses would
+/// take most of the time of a lookup.
+#[derive(Clone, Debug, PartialEq)]
+enum Texels {
+    Bytes(Vec<[u8; 3]>),
+    Words(Vec<[u16; 3]>),
 }
 
 /// What a decoded image depends on.
@@ -23,14 +32,18 @@ pub(super) struct TextureKey {
 impl TextureKey {
     /// Reads and decodes the file.
     pub(super) fn decode(&self) -> Result<Image, PrepareError> {
-        // 16 bits hold 8 exactly: 257 times the value is the same part of the whole.
-        let picture = self.location.read_picture(&self.file).map_err(PrepareError::Texture)?.into_rgb16();
+        let picture = self.location.read_picture(&self.file).map_err(PrepareError::Texture)?;
         let (width, height) = (picture.width() as usize, picture.height() as usize);
-        let part = |k: u16| f32::from(k) / f32::from(u16::MAX);
+        let color = picture.color();
+        let is_deep = color.bytes_per_pixel() > color.channel_count();
+        let (texels, most) = if is_deep {
+            (Texels::Words(picture.into_rgb16().pixels().map(|p| p.0).collect()), u16::MAX)
+        } else {
+            (Texels::Bytes(picture.into_rgb8().pixels().map(|p| p.0).collect()), u16::from(u8::MAX))
+        };
+        let part = |k: u16| f32::from(k) / f32::from(most);
         let meaning = |k: u16| if self.linear { part(k) } else { linear_from_srgb(part(k)) };
-        let decoded: Vec<f32> = (0..=u16::MAX).map(meaning).collect();
-        let texels = picture.pixels().map(|p| Rgb::from_array(p.0.map(|k| decoded[usize::from(k)]))).collect();
-        Ok(Image { width, height, texels })
+        Ok(Image { width, height, texels, values: (0..=most).map(meaning).collect() })
     }
 }
 
@@ -63,8 +76,13 @@ impl Image {
         DVec2::new(du * self.width as f64, dv * self.height as f64)
     }
 
+    #[inline]
     fn texel(&self, x: usize, y: usize) -> Rgb {
-        self.texels[y * self.width + x]
+        let (index, value) = (y * self.width + x, |code: usize| self.values[code]);
+        Rgb::from_array(match &self.texels {
+            Texels::Bytes(codes) => codes[index].map(|code| value(code.into())),
+            Texels::Words(codes) => codes[index].map(|code| value(code.into())),
+        })
     }
 
     /// Columns and rows around (u, v), with the weights of the second ones.
@@ -87,8 +105,8 @@ mod tests {
     #[test]
     fn orientation_repeat_and_gradient() {
         // Rows from the top: the bottom-left texel is 1.
-        let texels = [0.0, 0.0, 1.0, 0.0].map(Rgb::splat).to_vec();
-        let image = Image { width: 2, height: 2, texels };
+        let texels = Texels::Bytes(vec![[0; 3], [0; 3], [1; 3], [0; 3]]);
+        let image = Image { width: 2, height: 2, texels, values: vec![0.0, 1.0] };
         assert_eq!(image.sample(DVec2::new(0.25, 0.25)).x, 1.0);
         assert_eq!(image.sample(DVec2::new(1.25, -0.75)).x, 1.0, "repeats");
         assert_eq!(image.sample(DVec2::new(0.5, 0.25)).x, 0.5, "bilinear");
