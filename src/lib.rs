@@ -59,8 +59,9 @@
 //! - A pass is a function of what stands in its signature. Random numbers depend on (seed, stream, iteration, index,
 //!   dimension) alone, so one thread and many give the same bits.
 //! - An iteration is a pure function of (world, plan, seed, i), so films of parts can be merged. Iterations differ in size
-//!   by a fixed schedule and count in the mean by their size. The plan is refined after iterations 4, 8, 16, ... by
-//!   what iterations measured: radii of density estimates, and samples of each pixel.
+//!   by a fixed schedule; what photons bring counts in the mean by their size, camera samples by how many the pixels around
+//!   ask for. The plan is refined after iterations 4, 8, 16, ... by what iterations measured: radii of density estimates,
+//!   where caustics are gathered, and samples of each pixel.
 //! - A cancelled pass returns nothing, and the film changes only by whole iterations.
 //! - Colours are `f32`; positions, directions and distances are `f64`, because the offset that keeps a ray off the surface
 //!   it leaves has to be small against the scene and large against rounding. Photons are stored in `f32`, relative to the
@@ -85,6 +86,7 @@
 //! | visibility polygon | what is seen of a plane from a visible point in it: what stands there hides photons beyond |
 //! | tilt | a photon counts by how the surface looks where it is gathered, not where it arrived |
 //! | leader | a visible point that gathers interreflection for its neighbours too |
+//! | splat | a photon's light added to the pixel that sees it, where caustics are sharp |
 //! | component | direct light, caustics or interreflection: every path of light belongs to one of them |
 //! | contrast | how much brighter a visible point is in a wider disc: tells the bias of the density estimate |
 //! | varied | of a pixel: it shows several surfaces or a texture |

@@ -1,6 +1,8 @@
 use crate::film::LinearImage;
 use crate::math::Rgb;
+use crate::transport::PixelSamples;
 use glam::DVec3;
+use std::ops::{AddAssign, Sub};
 
 /// The film: sums over iterations. Sums of iterations 1 to n equal the merged sums of its parts.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,15 +10,58 @@ pub struct FilmSums {
     width: u32,
     height: u32,
     iterations: u64,
+    /// Of what photons bring, in all iterations.
     weight: f64,
-    /// Over all iterations, times their weights, in double precision: single stalls after some ten million additions. Empty
-    /// before the first: a scene that is edited again at once needs no film.
-    all: Vec<DVec3>,
+    /// Over all iterations. Empty before the first: a scene that is edited again at once needs no film.
+    all: Vec<PixelSums>,
     /// Over the first ones, as many as the greatest power of two that leaves others: how much they differ from these tells
     /// the error. Not over every other one: neighbours in a sequence of low discrepancy complement each other, and
     /// differ more than their mean errs.
-    first: Vec<DVec3>,
+    first: Vec<PixelSums>,
     first_weight: f64,
+}
+
+/// Sums for a pixel, in double precision: single stalls after some ten million additions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct PixelSums {
+    /// Radiance that photons bring, times the weights of the iterations.
+    photons: DVec3,
+    /// Means of the samples of the rest, times their weights.
+    samples: DVec3,
+    /// The weights of the samples.
+    samples_weight: f64,
+}
+
+impl PixelSums {
+    /// The mean radiance of the samples; black where there are none.
+    fn mean_sample(&self) -> DVec3 {
+        if self.samples_weight > 0.0 { self.samples / self.samples_weight } else { DVec3::ZERO }
+    }
+
+    /// The mean radiance of iterations of so much weight.
+    fn radiance(&self, weight: f64) -> DVec3 {
+        self.photons / weight + self.mean_sample()
+    }
+}
+
+impl AddAssign for PixelSums {
+    fn add_assign(&mut self, other: Self) {
+        self.photons += other.photons;
+        self.samples += other.samples;
+        self.samples_weight += other.samples_weight;
+    }
+}
+
+impl Sub for PixelSums {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self {
+            photons: self.photons - other.photons,
+            samples: self.samples - other.samples,
+            samples_weight: self.samples_weight - other.samples_weight,
+        }
+    }
 }
 
 impl FilmSums {
@@ -29,14 +74,22 @@ impl FilmSums {
         self.width as usize * self.height as usize
     }
 
-    /// Adds the next iteration, a radiance for each pixel, to the mean with this weight.
-    pub fn commit(&mut self, weight: f64, radiance: &[Rgb]) {
-        debug_assert_eq!(radiance.len(), self.pixel_count(), "an iteration covers the film");
-        self.all.resize(self.pixel_count(), DVec3::ZERO);
+    /// Adds the next iteration: for each pixel the radiance that photons bring, with this weight, and the samples of the rest,
+    /// with theirs.
+    pub fn commit(&mut self, weight: f64, photons: &[Rgb], samples: &[PixelSamples]) {
+        debug_assert_eq!([photons.len(), samples.len()], [self.pixel_count(); 2], "an iteration covers the film");
+        self.all.resize(self.pixel_count(), PixelSums::default());
         if self.iterations.is_power_of_two() {
             self.end_first();
         }
-        self.all.iter_mut().zip(radiance).for_each(|(sum, r)| *sum += weight * r.as_dvec3());
+        for ((sums, photons), samples) in self.all.iter_mut().zip(photons).zip(samples) {
+            let samples_weight = f64::from(samples.weight);
+            *sums += PixelSums {
+                photons: weight * photons.as_dvec3(),
+                samples: samples_weight * samples.mean().as_dvec3(),
+                samples_weight,
+            };
+        }
         self.iterations += 1;
         self.weight += weight;
     }
@@ -44,9 +97,9 @@ impl FilmSums {
     /// Adds the iterations of another film of the same size, which follow these.
     pub fn merge(&mut self, other: &Self) {
         debug_assert_eq!((other.width, other.height), (self.width, self.height), "films of one size");
-        self.all.resize(self.pixel_count(), DVec3::ZERO);
+        self.all.resize(self.pixel_count(), PixelSums::default());
         self.end_first();
-        self.all.iter_mut().zip(&other.all).for_each(|(sum, x)| *sum += x);
+        self.all.iter_mut().zip(&other.all).for_each(|(sums, x)| *sums += *x);
         self.iterations += other.iterations;
         self.weight += other.weight;
     }
@@ -67,8 +120,7 @@ impl FilmSums {
         if self.all.is_empty() {
             return LinearImage::black(self.width, self.height);
         }
-        let scale = 1.0 / self.weight;
-        let pixels = self.all.iter().map(|sum| (*sum * scale).as_vec3()).collect();
+        let pixels = self.all.iter().map(|sums| sums.radiance(self.weight).as_vec3()).collect();
         LinearImage { width: self.width, height: self.height, pixels }
     }
 
@@ -80,17 +132,22 @@ impl FilmSums {
         if !(other_weight > 0.0 && self.first_weight > 0.0) {
             return None;
         }
-        let (first_scale, other_scale) = (1.0 / self.first_weight, 1.0 / other_weight);
+        // The difference of two independent parts has the variance V / w0 + V / w1, their mean V / (w0 + w1).
+        let part =
+            |first: f64, other: f64| if first + other > 0.0 { (first * other).sqrt() / (first + other) } else { 0.0 };
+        let photons_part = part(self.first_weight, other_weight);
         let (mut squares, mut total) = (0.0, 0.0);
         for (all, first) in self.all.iter().zip(&self.first) {
-            squares += (*first * first_scale - (*all - *first) * other_scale).length_squared();
-            total += all.element_sum();
+            let other = *all - *first;
+            let photons = first.photons / self.first_weight - other.photons / other_weight;
+            let samples = first.mean_sample() - other.mean_sample();
+            let samples_part = part(first.samples_weight, other.samples_weight);
+            squares += (photons_part * photons + samples_part * samples).length_squared();
+            total += all.radiance(self.weight).element_sum();
         }
-        // The difference of two independent parts has the variance V / w0 + V / w1, their mean V / (w0 + w1).
-        let part = (self.first_weight * other_weight).sqrt() / self.weight;
         let values = 3.0 * self.all.len() as f64;
-        let mean = total / values / self.weight;
-        (mean > 0.0).then(|| (part * part * squares / values + squared_bias).sqrt() / mean)
+        let mean = total / values;
+        (mean > 0.0).then(|| (squares / values + squared_bias).sqrt() / mean)
     }
 }
 
@@ -99,9 +156,24 @@ mod tests {
     use super::*;
     use crate::math::{Sampler, Stream};
 
+    const PIXELS: u64 = 400;
+
+    fn value(iteration: u64, pixel: u64) -> Rgb {
+        Rgb::splat(Sampler::new(1, Stream::Test, iteration, pixel).next_1d() as f32)
+    }
+
     fn noise(iteration: u64) -> Vec<Rgb> {
-        let value = |pixel| Sampler::new(1, Stream::Test, iteration, pixel).next_1d() as f32;
-        (0..400).map(|pixel| Rgb::splat(value(pixel))).collect()
+        (0..PIXELS).map(|pixel| value(iteration, pixel)).collect()
+    }
+
+    fn nothing() -> Vec<PixelSamples> {
+        vec![PixelSamples::default(); PIXELS as usize]
+    }
+
+    /// One sample for each pixel, of this weight.
+    fn samples(iteration: u64, weight: f32) -> Vec<PixelSamples> {
+        let one = |pixel| PixelSamples { count: 1, weight, sum: value(iteration, pixel), ..PixelSamples::default() };
+        (0..PIXELS).map(one).collect()
     }
 
     #[test]
@@ -109,8 +181,9 @@ mod tests {
         let mut whole = FilmSums::new(20, 20);
         let mut parts = [whole.clone(), whole.clone()];
         for i in 1..=9 {
-            whole.commit(0.5 + i as f64, &noise(i));
-            parts[usize::from(i > 4)].commit(0.5 + i as f64, &noise(i));
+            let (weight, photons, samples) = (0.5 + i as f64, noise(i), samples(i, 1.0 + i as f32));
+            whole.commit(weight, &photons, &samples);
+            parts[usize::from(i > 4)].commit(weight, &photons, &samples);
         }
         let [mut first, second] = parts;
         first.merge(&second);
@@ -122,23 +195,41 @@ mod tests {
 
     #[test]
     fn two_parts_estimate_the_error() {
-        let mut film = FilmSums::new(20, 20);
-        assert_eq!(film.error_estimate(0.0), None);
+        let mut films = [(); 2].map(|()| FilmSums::new(20, 20));
+        assert_eq!(films[0].error_estimate(0.0), None);
         for i in 1..=64 {
-            film.commit(1.0, &noise(i));
+            films[0].commit(1.0, &noise(i), &nothing());
+            films[1].commit(1.0, &vec![Rgb::ZERO; PIXELS as usize], &samples(i, 1.0));
             // Uniform numbers have the standard deviation 0.2887 and the mean 0.5; 400 pixels know it to 4 %.
             let expected = 0.577 / (i as f64).sqrt();
             let off = |estimate: f64| (estimate / expected - 1.0).abs();
-            assert!(film.error_estimate(0.0).map_or(i == 1, |estimate| off(estimate) < 0.16), "iteration {i}");
+            for film in &films {
+                assert!(film.error_estimate(0.0).map_or(i == 1, |estimate| off(estimate) < 0.16), "iteration {i}");
+            }
         }
+    }
+
+    #[test]
+    fn photons_weigh_as_iterations_do_and_samples_as_they_say() {
+        let mut film = FilmSums::new(1, 1);
+        let samples = |weight: f32, radiance: f32| PixelSamples {
+            count: 2,
+            weight,
+            sum: Rgb::splat(2.0 * radiance),
+            ..Default::default()
+        };
+        film.commit(0.5, &[Rgb::splat(10.0)], &[samples(4.0, 1.0)]);
+        film.commit(1.0, &[Rgb::splat(40.0)], &[samples(1.0, 6.0)]);
+        assert_eq!(film.image().pixels[0], Rgb::splat(30.0 + 2.0));
     }
 
     #[test]
     fn a_billion_equal_iterations_keep_counting() {
         let mut film = FilmSums::new(1, 1);
-        film.all = vec![DVec3::splat(1e9)];
+        film.all = vec![PixelSums { photons: DVec3::splat(1e9), samples: DVec3::splat(1e10), samples_weight: 1e10 }];
         film.iterations = 1_000_000_000;
-        film.commit(1.0, &[Rgb::splat(2.0)]);
-        assert_eq!(film.all[0].x, 1e9 + 2.0);
+        let samples = PixelSamples { count: 1, weight: 1.0, sum: Rgb::splat(3.0), ..PixelSamples::default() };
+        film.commit(1.0, &[Rgb::splat(2.0)], &[samples]);
+        assert_eq!((film.all[0].photons.x, film.all[0].samples.x), (1e9 + 2.0, 1e10 + 3.0));
     }
 }

@@ -1,7 +1,7 @@
 use super::frame::PassSeconds;
 use crate::math::Rgb;
 use crate::transport::{
-    Cancel, Counters, Maps, PerMap, PhotonMap, PixelSamples, Plan, Rows, camera_pass, caustic_photon_pass, gather,
+    Cancel, Contrast, Counters, Maps, PhotonMap, PixelSamples, Plan, Rows, camera_pass, caustic_photon_pass, gather,
     global_photon_pass,
 };
 use crate::world::World;
@@ -9,14 +9,14 @@ use rayon::prelude::*;
 use std::time::Instant;
 
 /// One whole round of the algorithm, for the film or a band of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Iteration {
-    /// For each pixel.
-    pub(super) radiance: Vec<Rgb>,
-    /// For each pixel, of [`gather`].
-    pub(super) contrasts: Vec<PerMap<f32>>,
-    /// For each pixel, of [`camera_pass`].
+    /// For each pixel the radiance that photons bring.
+    pub(super) photons: Vec<Rgb>,
+    /// For each pixel the rest of its radiance.
     pub(super) samples: Vec<PixelSamples>,
+    /// For each pixel, of [`gather`].
+    pub(super) contrasts: Vec<Contrast>,
     pub(super) counters: Counters,
     pub(super) seconds: PassSeconds,
 }
@@ -46,18 +46,26 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     let bands = plan.bands(i).into_par_iter().map(|rows| render_band(world, plan, &maps, &rows, seed, i, cancel));
     let bands: Vec<Iteration> = bands.collect::<Option<_>>()?;
     let threads = rayon::current_num_threads() as f64;
-    for band in &bands {
-        counters += band.counters;
-        seconds.camera += band.seconds.camera / threads;
-        seconds.gather += band.seconds.gather / threads;
+    let pixels = plan.camera.pixel_count();
+    let mut whole = Iteration {
+        photons: Vec::with_capacity(pixels),
+        samples: Vec::with_capacity(pixels),
+        contrasts: Vec::with_capacity(pixels),
+        counters,
+        seconds,
+    };
+    for mut band in bands {
+        whole.photons.append(&mut band.photons);
+        whole.samples.append(&mut band.samples);
+        whole.contrasts.append(&mut band.contrasts);
+        whole.counters += band.counters;
+        whole.seconds.camera += band.seconds.camera / threads;
+        whole.seconds.gather += band.seconds.gather / threads;
     }
-    let mut radiance = bands.iter().map(|band| band.radiance.as_slice()).collect::<Vec<_>>().concat();
-    let contrasts = bands.iter().map(|band| band.contrasts.as_slice()).collect::<Vec<_>>().concat();
-    let samples = bands.iter().map(|band| band.samples.as_slice()).collect::<Vec<_>>().concat();
     for splat in &caustic.splats {
-        radiance[splat.pixel as usize] += splat.radiance;
+        whole.photons[splat.pixel as usize] += splat.radiance;
     }
-    Some(Iteration { radiance, contrasts, samples, counters, seconds })
+    Some(whole)
 }
 
 /// What the camera sees in some rows of the film.
@@ -74,14 +82,14 @@ fn render_band(
     let seen = timed(&mut seconds.camera, || camera_pass(world, plan, rows, seed, i, cancel))?;
     let (gathered, mut counters) = timed(&mut seconds.gather, || gather(world, plan, maps, &seen, i, cancel))?;
     counters += seen.counters;
-    let (mut radiance, first) = (seen.radiance, rows.start * plan.camera.width);
-    let mut contrasts = vec![PerMap::default(); radiance.len()];
+    let (pixels, first) = (seen.samples.len(), rows.start * plan.camera.width);
+    let (mut photons, mut contrasts) = (vec![Rgb::ZERO; pixels], vec![Contrast::default(); pixels]);
     for (point, found) in seen.visible_points.iter().zip(&gathered) {
         let place = (point.pixel - first) as usize;
-        radiance[place] += found.radiance;
-        contrasts[place] += found.contrasts;
+        photons[place] += found.radiance;
+        contrasts[place] += found.contrast;
     }
-    Some(Iteration { radiance, contrasts, samples: seen.samples, counters, seconds })
+    Some(Iteration { photons, samples: seen.samples, contrasts, counters, seconds })
 }
 
 /// Runs a pass and adds its wall-clock time.

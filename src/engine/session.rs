@@ -101,7 +101,7 @@ impl Session {
         let iteration = render_iteration(&self.world, &self.plan, self.seed, number, cancel);
         if let Some(iteration) = &iteration {
             let commit = Instant::now();
-            self.film.commit(self.plan.weight(number), &iteration.radiance);
+            self.film.commit(self.plan.weight(number), &iteration.photons, &iteration.samples);
             self.passes += iteration.seconds;
             self.passes.commit += commit.elapsed().as_secs_f64();
             self.counters += iteration.counters;
@@ -155,7 +155,8 @@ impl Session {
         let (width, height) = (plan.camera.width, plan.camera.height);
         let drawn = render_iteration(&self.world, &plan, self.seed, 1, cancel)?;
         let stats = stats(&drawn.counters, drawn.seconds, start.elapsed().as_secs_f64());
-        let image = LinearImage { width, height, pixels: drawn.radiance };
+        let pixels = drawn.photons.iter().zip(&drawn.samples).map(|(photons, samples)| *photons + samples.mean());
+        let image = LinearImage { width, height, pixels: pixels.collect() };
         Some(Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) })
     }
 

@@ -11,7 +11,8 @@ use super::schedule;
 
 /// How much wider the other disc is.
 pub(super) const WIDER: f64 = 1.5;
-/// Pixels along a side of a cell. In each iteration one of a cell's pixels is measured, which stands for all.
+/// Pixels along a side of a cell. One of a cell's pixels is measured and stands for all, the same until radii are chosen
+/// anew: what differs between pixels would count as noise, and hide what is sharp.
 const CELL: u32 = 2;
 /// The photons of all iterations are one sequence of low discrepancy: so much smaller than for independent ones is the
 /// variance of their mean, as far as it matters for the best radius. Measured: with 0.25 and with 1 the error of
@@ -21,6 +22,9 @@ const EVENNESS: f64 = 0.5;
 const SIGNAL_REACH: usize = 2;
 /// Radii are smoothed over a square of this many cells to each side.
 const RADIUS_REACH: usize = 1;
+/// Discs count as large only where they are so in this many cells to each side: beside something sharp they are not
+/// trusted.
+const TRUST_REACH: usize = 3;
 /// The least and the greatest step: a wrong one is mended after the next measurement.
 const STEP: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
@@ -28,8 +32,36 @@ const STEP: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 /// small ones, because it may be sharp; most of it is not.
 pub(super) fn most_growth(kind: MapKind) -> f64 {
     match kind {
-        MapKind::Caustic | MapKind::Global => 1.0,
-        MapKind::Focused => 3.0,
+        MapKind::Global => 1.0,
+        MapKind::Caustic | MapKind::Focused => 3.0,
+    }
+}
+
+/// How much brighter a pixel is in wider discs, summed over channels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Contrast {
+    /// By the photons of each map.
+    pub maps: PerMap<f32>,
+    /// Variance of that by the map of caustics, as far as it is by chance how many photons there are. Where a caustic is
+    /// sharp, contrasts differ more by the places in the pixel that they are measured at.
+    pub caustic_noise: f32,
+    /// Of the picture, which need not show what is in each map.
+    pub picture: f32,
+}
+
+impl Contrast {
+    /// Whether it is a number.
+    pub(super) fn is_finite(&self) -> bool {
+        let maps = MapKind::ALL.map(|kind| self.maps[kind]);
+        maps.into_iter().chain([self.caustic_noise, self.picture]).all(f32::is_finite)
+    }
+}
+
+impl std::ops::AddAssign for Contrast {
+    fn add_assign(&mut self, other: Self) {
+        MapKind::ALL.into_iter().for_each(|kind| self.maps[kind] += other.maps[kind]);
+        self.caustic_noise += other.caustic_noise;
+        self.picture += other.picture;
     }
 }
 
@@ -56,17 +88,36 @@ impl Cells {
         y as usize * self.columns as usize + x as usize
     }
 
-    /// Means over squares of `2 reach + 1` cells a side, as far as they lie on the film.
-    fn blurred(&self, values: &[f64], reach: usize) -> Vec<f64> {
+    /// For each cell what the function makes of the values of a square of `2 reach + 1` cells a side, as far as they lie on the
+    /// film: of those of each row, and of what it makes of the rows.
+    fn of_squares<T: Copy>(
+        &self,
+        values: &[T],
+        reach: usize,
+        of: impl Fn(&mut dyn ExactSizeIterator<Item = T>) -> T,
+    ) -> Vec<T> {
         let columns = self.columns as usize;
-        let along = |values: &[f64], stride: usize, len: usize, index: usize| {
+        let along = |values: &[T], stride: usize, len: usize, index: usize| {
             let at = index / stride % len;
-            let (first, last) = (at.saturating_sub(reach), (at + reach).min(len - 1));
+            let near = at.saturating_sub(reach)..(at + reach + 1).min(len);
             let start = index - at * stride;
-            (first..=last).map(|k| values[start + k * stride]).sum::<f64>() / (last - first + 1) as f64
+            of(&mut near.map(|k| values[start + k * stride]))
         };
-        let rows: Vec<f64> = (0..values.len()).map(|k| along(values, 1, columns, k)).collect();
+        let rows: Vec<T> = (0..values.len()).map(|k| along(values, 1, columns, k)).collect();
         (0..rows.len()).map(|k| along(&rows, columns, self.rows as usize, k)).collect()
+    }
+
+    /// Their means.
+    fn blurred(&self, values: &[f64], reach: usize) -> Vec<f64> {
+        self.of_squares(values, reach, |near| {
+            let count = near.len() as f64;
+            near.sum::<f64>() / count
+        })
+    }
+
+    /// The least of them.
+    fn least(&self, values: &[f32], reach: usize) -> Vec<f32> {
+        self.of_squares(values, reach, |near| near.fold(f32::INFINITY, f32::min))
     }
 }
 
@@ -76,9 +127,17 @@ struct Sums {
     count: u32,
     contrast: f64,
     squares: f64,
+    /// Of what is known of their variances.
+    noise: Option<f64>,
 }
 
 impl Sums {
+    fn add(&mut self, contrast: f32) {
+        self.count += 1;
+        self.contrast += f64::from(contrast);
+        self.squares += f64::from(contrast).powi(2);
+    }
+
     fn mean(&self) -> f64 {
         self.contrast / f64::from(self.count.max(1))
     }
@@ -89,42 +148,48 @@ impl Sums {
         squares / f64::from(self.count.saturating_sub(1).max(1))
     }
 
+    /// The part of this that a wider disc makes less.
+    fn noise(&self) -> f64 {
+        self.noise.map_or_else(|| self.variance(), |noise| noise / f64::from(self.count.max(1)))
+    }
+
     /// The square of the expected contrast: that of the mean, less what noise adds to it; negative by chance.
     fn signal(&self) -> f64 {
-        self.mean().powi(2) - self.variance() / f64::from(self.count.max(1))
+        self.mean().powi(2) - self.noise() / f64::from(self.count.max(1))
     }
 }
 
-/// The contrasts that some iterations measured: how much brighter pixels are in wider discs.
+/// The contrasts that iterations with the same radii measured.
 #[derive(Clone, Debug)]
 pub(super) struct Contrasts {
     cells: Cells,
-    sums: PerMap<Vec<Sums>>,
+    maps: PerMap<Vec<Sums>>,
+    picture: Vec<Sums>,
 }
 
 impl Contrasts {
     /// None yet, for a film of this size.
     pub(super) fn new(width: u32, height: u32) -> Self {
         let cells = Cells::new(width, height);
-        Self { cells, sums: PerMap::from_fn(|_| vec![Sums::default(); cells.count()]) }
+        let none = || vec![Sums::default(); cells.count()];
+        Self { cells, maps: PerMap::from_fn(|_| none()), picture: none() }
     }
 
     /// Whether a pixel of a film of this width is the one that is measured in its cell in an iteration.
     pub(super) fn includes(width: u32, pixel: u32, iteration: u64) -> bool {
         let (x, y) = (pixel % width % CELL, pixel / width % CELL);
-        schedule::measures(iteration) && u64::from(y * CELL + x) == iteration % u64::from(CELL * CELL)
+        let turn = schedule::refinements_before(iteration) % (CELL * CELL);
+        schedule::measures(iteration) && y * CELL + x == turn
     }
 
     /// Adds what an iteration measured, a contrast for each pixel of the film.
-    pub(super) fn add(&mut self, iteration: u64, contrasts: &[PerMap<f32>]) {
+    pub(super) fn add(&mut self, iteration: u64, contrasts: &[Contrast]) {
         for (pixel, contrast) in (0..).zip(contrasts) {
             if Self::includes(self.cells.width, pixel, iteration) {
-                for kind in MapKind::ALL {
-                    let sums = &mut self.sums[kind][self.cells.at(pixel)];
-                    sums.count += 1;
-                    sums.contrast += f64::from(contrast[kind]);
-                    sums.squares += f64::from(contrast[kind]).powi(2);
-                }
+                let cell = self.cells.at(pixel);
+                MapKind::ALL.into_iter().for_each(|kind| self.maps[kind][cell].add(contrast.maps[kind]));
+                *self.maps[MapKind::Caustic][cell].noise.get_or_insert(0.0) += f64::from(contrast.caustic_noise);
+                self.picture[cell].add(contrast.picture);
             }
         }
     }
@@ -132,7 +197,7 @@ impl Contrasts {
     /// The mean square of the bias, over pixels and channels, as far as it goes with the square of the radius and is the same for
     /// all channels; 0 where noise hides it.
     pub(super) fn squared_bias(&self) -> f64 {
-        let measured = MapKind::ALL.iter().flat_map(|&kind| &self.sums[kind]).filter(|sums| sums.count > 1);
+        let measured = self.picture.iter().filter(|sums| sums.count > 1);
         let contrast = measured.map(Sums::signal).sum::<f64>() / self.cells.count() as f64;
         // A contrast is summed over channels.
         contrast.max(0.0) / (WIDER.powi(2) - 1.0).powi(2) / 9.0
@@ -144,6 +209,8 @@ impl Contrasts {
 pub struct Bandwidth {
     cells: Cells,
     factors: PerMap<Vec<f32>>,
+    /// The least factor of the map of caustics near each cell.
+    least_caustic: Vec<f32>,
 }
 
 impl Bandwidth {
@@ -152,9 +219,10 @@ impl Bandwidth {
     fn best(contrasts: &Contrasts, total: f64, measured_at: impl Fn(MapKind, usize) -> f64) -> Self {
         let cells = contrasts.cells;
         let factors = PerMap::from_fn(|kind| {
-            best_factors(cells, &contrasts.sums[kind], most_growth(kind), total, |c| measured_at(kind, c))
+            best_factors(cells, &contrasts.maps[kind], most_growth(kind), total, |c| measured_at(kind, c))
         });
-        Self { cells, factors }
+        let least_caustic = cells.least(&factors[MapKind::Caustic], TRUST_REACH);
+        Self { cells, factors, least_caustic }
     }
 
     /// The first one, by iterations whose radii had shrunk by `shrink` everywhere.
@@ -172,6 +240,16 @@ impl Bandwidth {
         f64::from(self.factors[kind][self.cells.at(pixel)])
     }
 
+    /// The least factor of the map of caustics near a pixel.
+    pub(super) fn least_caustic_near(&self, pixel: u32) -> f64 {
+        f64::from(self.least_caustic[self.cells.at(pixel)])
+    }
+
+    /// The greatest of these.
+    pub(super) fn greatest_least_caustic(&self) -> f64 {
+        f64::from(self.least_caustic.iter().copied().fold(0.0, f32::max))
+    }
+
     /// The mean of a map's factors.
     pub(super) fn mean(&self, kind: MapKind) -> f64 {
         let factors = &self.factors[kind];
@@ -182,7 +260,9 @@ impl Bandwidth {
 /// The factor of each cell, at most `most`, for a mean of `total` full iterations.
 fn best_factors(cells: Cells, sums: &[Sums], most: f64, total: f64, measured_at: impl Fn(usize) -> f64) -> Vec<f32> {
     let blurred = |of: fn(&Sums) -> f64| cells.blurred(&sums.iter().map(of).collect::<Vec<f64>>(), SIGNAL_REACH);
-    let (signals, variances) = (blurred(Sums::signal), blurred(Sums::variance));
+    let (signals, variances) = (blurred(Sums::signal), blurred(Sums::noise));
+    // What differs by places in the pixel is as sharp; photons of one path are not independent, so twice their noise is none.
+    let differences = blurred(|sums| sums.variance() - 2.0 * sums.noise());
     // x^6 = v / (2 N b^2), with v and b^2 from the contrast's variance and signal.
     let scale = EVENNESS * WIDER.powi(4) / (2.0 * total);
     let step = |signal: f64, variance: f64| {
@@ -193,7 +273,11 @@ fn best_factors(cells: Cells, sums: &[Sums], most: f64, total: f64, measured_at:
         best.clamp(*STEP.start(), *STEP.end())
     };
     let logarithms: Vec<f64> = (0..cells.count())
-        .map(|cell| (measured_at(cell) * step(signals[cell], variances[cell])).min(most).ln())
+        .map(|cell| {
+            (measured_at(cell) * step(signals[cell].max(0.0) + differences[cell].max(0.0), variances[cell]))
+                .min(most)
+                .ln()
+        })
         .collect();
     cells.blurred(&logarithms, RADIUS_REACH).into_iter().map(|x| x.exp() as f32).collect()
 }
@@ -212,8 +296,14 @@ mod tests {
         for iteration in 8..8 + n {
             let noise = |pixel| Sampler::new(1, Stream::Test, pixel, iteration).next_1d() - 0.5;
             let contrast = |pixel| mean + deviation * 12f64.sqrt() * noise(pixel);
-            let all: Vec<PerMap<f32>> =
-                (0..u64::from(SIZE * SIZE)).map(|pixel| PerMap::from_fn(|_| contrast(pixel) as f32)).collect();
+            let all: Vec<Contrast> = (0..u64::from(SIZE * SIZE))
+                .map(|pixel| contrast(pixel) as f32)
+                .map(|x| Contrast {
+                    maps: PerMap::from_fn(|_| x),
+                    picture: x,
+                    caustic_noise: (deviation * deviation) as f32,
+                })
+                .collect();
             contrasts.add(iteration, &all);
         }
         contrasts
@@ -233,9 +323,9 @@ mod tests {
 
     #[test]
     fn contrasts_tell_the_bias_of_the_picture() {
-        // In each of three maps a bias of 0.6, summed over channels: 0.2 in each of these.
+        // A bias of 0.6, summed over channels: 0.2 in each of these.
         let bias = measured(64, 0.6 * (WIDER.powi(2) - 1.0), 0.5).squared_bias();
-        assert!((bias / (3.0 * 0.04) - 1.0).abs() < 0.05, "{bias}");
+        assert!((bias / 0.04 - 1.0).abs() < 0.05, "{bias}");
         let noise = measured(64, 0.0, 0.5).squared_bias();
         assert!((0.0..1e-3).contains(&noise), "{noise}");
         assert_eq!(measured(1, 1.0, 0.0).squared_bias(), 0.0, "once is not enough to tell bias from noise");
@@ -262,13 +352,50 @@ mod tests {
         assert!((0..SIZE * SIZE).all(|p| bandwidth.at(KIND, p) <= 1.0));
     }
 
+    /// A bright line of one pixel: its neighbours are brighter in wider discs, it is darker.
+    #[test]
+    fn what_is_sharp_shrinks_discs_and_is_not_trusted_around() {
+        let mut contrasts = Contrasts::new(SIZE, SIZE);
+        let contrast = |pixel: u32| match pixel % SIZE {
+            20 => -4.0,
+            19 | 21 => 2.0,
+            _ => 0.0,
+        };
+        for iteration in 9..=16 {
+            let noise = |pixel| Sampler::new(1, Stream::Test, u64::from(pixel), iteration).next_1d() as f32 - 0.5;
+            let all = (0..SIZE * SIZE).map(|pixel| {
+                let x = contrast(pixel) + noise(pixel);
+                Contrast { maps: PerMap::from_fn(|_| x), caustic_noise: 1.0 / 12.0, picture: x }
+            });
+            contrasts.add(iteration, &all.collect::<Vec<_>>());
+        }
+        let bandwidth = Bandwidth::first(&contrasts, 16.0, 0.8);
+        let at = |x| bandwidth.at(MapKind::Caustic, 20 * SIZE + x);
+        assert!(at(20) < 0.5 && at(4) > 0.8, "{} {}", at(20), at(4));
+        let least = |x| bandwidth.least_caustic_near(20 * SIZE + x);
+        assert!(least(13) < 0.6 && least(27) < 0.6 && least(4) > 0.8, "{} {} {}", least(13), least(27), least(4));
+    }
+
+    /// Places in the pixel that differ are no noise, which a wider disc would make less.
+    #[test]
+    fn what_differs_by_places_in_the_pixel_shrinks_discs_of_caustics() {
+        let mut contrasts = measured(16, 0.0, 1.0);
+        let quiet = Bandwidth::first(&contrasts, 16.0, 0.8).at(MapKind::Caustic, 0);
+        for sums in &mut contrasts.maps[MapKind::Caustic] {
+            sums.noise = sums.noise.map(|noise| 0.01 * noise);
+        }
+        let sharp = Bandwidth::first(&contrasts, 16.0, 0.8).at(MapKind::Caustic, 0);
+        assert!(sharp < 0.6 * quiet, "{sharp} {quiet}");
+    }
+
     #[test]
     fn each_pixel_is_measured_in_turn_on_films_of_any_size() {
         for (width, height) in [(1, 1), (5, 3), (4, 4)] {
             let mut contrasts = Contrasts::new(width, height);
             let pixels = (width * height) as usize;
-            (8..12).for_each(|iteration| contrasts.add(iteration, &vec![PerMap::from_fn(|_| 1.0); pixels]));
-            assert_eq!(contrasts.sums[KIND].iter().map(|s| s.count).sum::<u32>(), width * height);
+            let iterations = [3, 5, 9, 17];
+            iterations.into_iter().for_each(|i| contrasts.add(i, &vec![Contrast::default(); pixels]));
+            assert_eq!(contrasts.maps[KIND].iter().map(|s| s.count).sum::<u32>(), width * height);
             assert!((0..width * height).all(|p| Bandwidth::first(&contrasts, 8.0, 1.0).at(KIND, p) <= 1.0));
         }
     }

@@ -101,9 +101,7 @@ pub struct CameraBatch {
     pub visible_points: Vec<VisiblePoint>,
     /// Of visible points on surfaces with relief maps: light is gathered once for all of a point's facets.
     pub facets: Vec<Facet>,
-    /// For each pixel of the rows the radiance found so far: emitted and direct light.
-    pub radiance: Vec<Rgb>,
-    /// For each pixel how its samples differed.
+    /// For each pixel of the rows the samples of emitted and direct light.
     pub samples: Vec<PixelSamples>,
     /// What was done.
     pub counters: Counters,
@@ -121,8 +119,7 @@ pub fn camera_pass(
 ) -> Option<CameraBatch> {
     let width = plan.camera.width;
     let pixels = rows.len() * width as usize;
-    let radiance = vec![Rgb::ZERO; pixels];
-    let batch = CameraBatch { radiance, samples: vec![PixelSamples::default(); pixels], ..CameraBatch::default() };
+    let batch = CameraBatch { samples: vec![PixelSamples::default(); pixels], ..CameraBatch::default() };
     let mut walk = Walk {
         world,
         plan,
@@ -144,10 +141,8 @@ pub fn camera_pass(
             for column in columns {
                 let pixel = row * width + column;
                 let own = rest.split_off_mut(..plan.camera_samples(pixel, iteration).count()).unwrap_or_default();
-                let samples = walk.sample_pixel(pixel, own, iteration);
                 let place = ((row - rows.start) * width + column) as usize;
-                walk.batch.radiance[place] = samples.mean();
-                walk.batch.samples[place] = samples;
+                walk.batch.samples[place] = walk.sample_pixel(pixel, own, iteration);
             }
         }
     }
@@ -237,7 +232,8 @@ impl Walk<'_> {
         let count = starts.len();
         let surface = |start: &Start| start.hit.map_or(0, |hit| hit.primitive + 1);
         let on_an_edge = starts.iter().any(|start| surface(start) != surface(&starts[0]));
-        let mut samples = PixelSamples { surface: surface(&starts[0]), ..PixelSamples::default() };
+        let weight = self.plan.samples_weight(pixel, iteration);
+        let mut samples = PixelSamples { surface: surface(&starts[0]), weight, ..PixelSamples::default() };
         let gathering = match (self.plan.gathers(), on_an_edge) {
             (false, _) => 0,
             (true, true) => count.min(SAMPLES_OF_EDGE),

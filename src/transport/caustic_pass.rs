@@ -1,7 +1,7 @@
 //! Photons that only mirrors and glass have touched, from the light to the first surface that scatters them: caustics.
 //!
-//! Where the camera sees that surface directly, the photon is also added to the film at once (light tracing); the
-//! density estimate is left to what is seen in mirrors and through glass.
+//! Where the camera sees that surface directly and caustics are sharp, the photon is also added to the film at once (light
+//! tracing); the density estimate is left to what is smooth, or seen in mirrors and through glass.
 
 use super::bsdf;
 use super::counters::Counters;
@@ -33,7 +33,7 @@ pub struct Splat {
 pub struct CausticBatch {
     /// Photons for the map; none where nothing gathers them.
     pub photons: Vec<Photon>,
-    /// Light for the film; none where the map serves what is seen directly, too.
+    /// Light for the film; none for pixels that gather what is seen directly, too.
     pub splats: Vec<Splat>,
     /// What was done.
     pub counters: Counters,
@@ -74,7 +74,7 @@ struct Walk<'a> {
     world: &'a World,
     plan: &'a Plan,
     caustics: &'a CausticPlan,
-    to_film: bool,
+    iteration: u64,
     to_map: bool,
     batch: CausticBatch,
     branches: Vec<Branch>,
@@ -91,9 +91,8 @@ struct Branch {
 
 impl<'a> Walk<'a> {
     fn new(world: &'a World, plan: &'a Plan, caustics: &'a CausticPlan, iteration: u64) -> Self {
-        let to_film = !plan.gathers_visible_caustics(iteration);
-        let to_map = caustics.seen_indirectly || !to_film;
-        Self { world, plan, caustics, to_film, to_map, batch: CausticBatch::default(), branches: Vec::new() }
+        let to_map = plan.needs_caustic_map(iteration);
+        Self { world, plan, caustics, iteration, to_map, batch: CausticBatch::default(), branches: Vec::new() }
     }
 
     fn trace_path(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
@@ -201,15 +200,16 @@ impl<'a> Walk<'a> {
             self.batch.photons.push(photon);
             self.batch.counters.photons_stored += 1;
         }
-        if self.to_film {
-            self.splat(branch.flux, wi, point, scattering, n_shade);
-        }
+        self.splat(branch.flux, wi, point, scattering, n_shade);
     }
 
     /// Adds the light that the surface sends on to the camera to its pixel: a photon of flux `phi` adds
-    /// `phi f |cos| / (d^2 solid angle of the pixel)` to the pixel's mean radiance.
+    /// `phi f |cos| / (d^2 solid angle of the pixel)` to the pixel's mean radiance. Not where the pixel gathers it.
     fn splat(&mut self, flux: Rgb, wi: DVec3, point: &SurfacePoint, scattering: &Scattering, n_shade: DVec3) {
         let Some(seen) = self.plan.camera.project(point.position) else { return };
+        if self.plan.gathers_visible_caustics(seen.pixel, self.iteration) {
+            return;
+        }
         let wo = seen.to_camera;
         let n_side = point.n_side();
         let (cos_camera, cos_photon) = (wo.dot(n_side), wi.dot(n_side));

@@ -1,12 +1,12 @@
 //! Photons to radiance: density estimates at visible points.
 
 use super::Cancel;
-use super::bandwidth::WIDER;
+use super::bandwidth::{Contrast, WIDER};
 use super::bsdf;
 use super::camera_pass::{CameraBatch, Facet, VisiblePoint};
 use super::counters::Counters;
 use super::kernel::{self, Clipped};
-use super::maps::{MapKind, Maps, PerMap};
+use super::maps::{MapKind, Maps};
 use super::photon::Photon;
 use super::photon_map::{PhotonMap, Query, Stack};
 use super::photon_pass::MAX_SHADING_FACTOR;
@@ -37,8 +37,8 @@ const MAX_PART_OF_SPHERE: f64 = 0.32;
 pub struct Gathered {
     /// Radiance that the point adds to its pixel.
     pub radiance: Rgb,
-    /// How much brighter it is in wider discs, summed over channels; 0 where that is not measured.
-    pub contrasts: PerMap<f32>,
+    /// How much brighter it is in wider discs; 0 where that is not measured.
+    pub contrast: Contrast,
 }
 
 /// What is found at each visible point, in their order; `None` when cancelled.
@@ -164,12 +164,12 @@ impl Gatherer<'_> {
         counters: &mut Counters,
     ) -> Gathered {
         let mut found = Gathered::default();
+        let compares = self.plan.compares_discs(point.pixel, self.iteration);
         let radii: ArrayVec<(MapKind, f64), 3> = MapKind::ALL
             .into_iter()
-            .filter(|kind| self.is_wanted(*kind, point))
+            .filter(|kind| self.is_wanted(*kind, point) && (compares || self.shows(*kind, point)))
             .map(|kind| (kind, self.radius(kind, point)))
             .collect();
-        let compares = self.plan.compares_discs(point.pixel, self.iteration);
         let largest = radii.iter().fold(0.0, |largest, (_, radius)| radius.max(largest));
         let view = self.view(point, largest * if compares { WIDER } else { 1.0 }, counters);
         for (kind, radius) in radii {
@@ -184,13 +184,21 @@ impl Gatherer<'_> {
                     self.estimate(l, kind, stack, point, view.as_ref(), radius)
                 }
             };
-            found.radiance += light;
+            let shows = self.shows(kind, point);
+            if shows {
+                found.radiance += light;
+            }
             if compares {
                 let wider = self.estimate(l, kind, stack, point, view.as_ref(), WIDER * radius);
-                found.contrasts[kind] = (wider - light).element_sum();
+                let contrast = (wider - light).element_sum();
+                found.contrast.maps[kind] = contrast;
+                found.contrast.picture += if shows { contrast } else { 0.0 };
+                if kind == MapKind::Caustic {
+                    found.contrast.caustic_noise = self.caustic_noise(l, stack, point, view.as_ref(), radius);
+                }
             }
         }
-        if found.radiance.is_finite() && MapKind::ALL.into_iter().all(|kind| found.contrasts[kind].is_finite()) {
+        if found.radiance.is_finite() && found.contrast.is_finite() {
             found
         } else {
             counters.dropped_samples += 1;
@@ -203,13 +211,15 @@ impl Gatherer<'_> {
         kind == MapKind::Global || (kind == MapKind::Focused && self.plan.is_draft())
     }
 
-    /// Whether a point needs what is in a map.
+    /// Whether what is in a map is worth a look from a point.
     fn is_wanted(&self, kind: MapKind, point: &VisiblePoint) -> bool {
-        !self.maps[kind].is_empty()
-            && match kind {
-                MapKind::Caustic => !point.seen_directly || self.plan.gathers_visible_caustics(self.iteration),
-                MapKind::Global | MapKind::Focused => scatters_diffusely(point),
-            }
+        !self.maps[kind].is_empty() && (kind == MapKind::Caustic || scatters_diffusely(point))
+    }
+
+    /// Whether the picture shows what is in a map here: not where the photons themselves are added to the film.
+    fn shows(&self, kind: MapKind, point: &VisiblePoint) -> bool {
+        let is_splatted = || point.seen_directly && !self.plan.gathers_visible_caustics(point.pixel, self.iteration);
+        kind != MapKind::Caustic || !is_splatted()
     }
 
     /// The radius of a point's disc, scene units.
@@ -294,6 +304,24 @@ impl Gatherer<'_> {
             irradiance(l, map, stack, point, &disc) * diffuse_reflection(point, radius)
         };
         point.throughput * reflected
+    }
+
+    /// Variance of the contrast of caustics, summed over channels, if their photons are independent.
+    #[inline(always)]
+    fn caustic_noise<L: Lanes>(
+        &self,
+        l: L,
+        stack: &mut Stack,
+        point: &VisiblePoint,
+        view: Option<&VisibilityPolygon>,
+        radius: f64,
+    ) -> f32 {
+        let Some(disc) = self.disc(point, view, radius) else { return 0.0 };
+        let variance = self.maps[MapKind::Caustic].sum_squares(l, &disc.query, stack) / (disc.integral as f32).powi(2);
+        let deviation = Rgb::from_array(variance.to_array().map(f32::sqrt));
+        // All channels have the same photons.
+        let sum = (point.throughput * deviation * diffuse_reflection(point, radius)).element_sum();
+        ((1.0 - 1.0 / WIDER.powi(2)) as f32 * sum).powi(2)
     }
 
     /// The disc of this radius round a point; none on a light's surface.

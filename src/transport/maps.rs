@@ -65,9 +65,3 @@ impl<T> std::ops::IndexMut<MapKind> for PerMap<T> {
         &mut self.0[kind as usize]
     }
 }
-
-impl std::ops::AddAssign for PerMap<f32> {
-    fn add_assign(&mut self, other: Self) {
-        MapKind::ALL.into_iter().for_each(|kind| self[kind] += other[kind]);
-    }
-}

@@ -41,7 +41,7 @@ mod sharing;
 mod tilt;
 mod visibility_polygon;
 
-pub use bandwidth::Bandwidth;
+pub use bandwidth::{Bandwidth, Contrast};
 pub use bsdf::{Fresnel, fresnel};
 pub use camera_pass::{CameraBatch, Facet, VisiblePoint, camera_pass};
 pub use caustic_pass::{CausticBatch, Splat, caustic_photon_pass};

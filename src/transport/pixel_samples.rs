@@ -1,5 +1,9 @@
 //! How many samples of direct light each pixel gets: many where they differ, one where they agree. For so many samples in
 //! all, the error of the picture is least where a pixel's samples go with their standard deviation \[Neyman34\].
+//!
+//! Samples weigh alike in their pixel's mean, whatever iteration they belong to. But if what weighs how much depended on a
+//! pixel's own samples, its mean would be biased: few hits make for few samples, and so for much weight. So weights go by the
+//! samples of the pixels around it.
 
 use crate::math::Rgb;
 use glam::DVec3;
@@ -26,6 +30,8 @@ const REACH: usize = 1;
 pub struct PixelSamples {
     /// How many there were.
     pub count: u32,
+    /// How much their mean weighs in the pixel's, beside those of other iterations.
+    pub weight: f32,
     /// Their sum.
     pub sum: Rgb,
     /// The sum of the squares of their channels.
@@ -54,7 +60,7 @@ impl PixelSamples {
     }
 
     /// The mean of the samples; black where there are none.
-    pub(super) fn mean(&self) -> Rgb {
+    pub fn mean(&self) -> Rgb {
         self.sum / self.count.max(1) as f32
     }
 
@@ -94,16 +100,29 @@ impl FilmSamples {
 #[derive(Clone, Debug)]
 pub(super) struct SampleCounts {
     first_iteration: u64,
-    /// For each pixel the first sample, and how many there are in an iteration.
-    pixels: Vec<(u64, u8)>,
+    pixels: Vec<PixelCount>,
+}
+
+/// Which samples of a pixel's sequence belong to the iterations from some on.
+#[derive(Clone, Copy, Debug)]
+struct PixelCount {
+    first: u64,
+    /// In each iteration.
+    count: u8,
+    /// As many as the pixels around it ask for.
+    weight: u8,
 }
 
 impl SampleCounts {
     /// The best ones after iteration `i`, until which pixels took the samples before `next` of their sequence.
     pub(super) fn best(i: u64, samples: &FilmSamples, next: impl Fn(u32) -> u64 + Sync) -> Self {
-        let deviations = deviations(samples);
+        let deviations = deviations(samples, true);
         let counts = |scale: f64| {
-            samples.pixels.par_iter().zip(&deviations).map(move |(pixel, deviation)| count(pixel, scale * deviation))
+            samples
+                .pixels
+                .par_iter()
+                .zip(&deviations)
+                .map(move |(pixel, deviation)| least_count(pixel).max(nearest_power(scale * deviation)))
         };
         let least: usize = samples.pixels.iter().map(least_count).sum();
         let most = least + (MOST_EXTRA_SAMPLES * samples.pixels.len() as f64) as usize;
@@ -111,13 +130,23 @@ impl SampleCounts {
         // Each step is an eighth of a doubling.
         let scales = (0..).map(|step| SAMPLES_PER_DEVIATION * (-0.125 * f64::from(step)).exp2());
         let scale = scales.take(MOST_STEPS).find(|&scale| !too_many(scale)).unwrap_or(0.0);
-        let first = |(pixel, count): (usize, usize)| (next(pixel as u32).next_multiple_of(count as u64), count as u8);
-        Self { first_iteration: i + 1, pixels: counts(scale).enumerate().map(first).collect() }
+        let deviations_around = self::deviations(samples, false);
+        let pixel = |((pixel, count), deviation): ((usize, usize), &f64)| PixelCount {
+            first: next(pixel as u32).next_multiple_of(count as u64),
+            count: count as u8,
+            weight: nearest_power(scale * deviation) as u8,
+        };
+        Self { first_iteration: i + 1, pixels: counts(scale).enumerate().zip(&deviations_around).map(pixel).collect() }
+    }
+
+    /// How much the mean of a pixel's samples of an iteration weighs: the same as so many samples of the first iterations.
+    pub(super) fn weight(&self, pixel: u32) -> f32 {
+        f32::from(self.pixels[pixel as usize].weight)
     }
 
     /// The samples of a pixel in an iteration.
     pub(super) fn at(&self, pixel: u32, iteration: u64) -> Range<u64> {
-        let (first, count) = self.pixels[pixel as usize];
+        let PixelCount { first, count, .. } = self.pixels[pixel as usize];
         let start = first + (iteration - self.first_iteration) * u64::from(count);
         start..start + u64::from(count)
     }
@@ -128,14 +157,13 @@ fn least_count(pixel: &PixelSamples) -> usize {
 }
 
 /// The power of two nearest to what is wanted, as far as a pixel may have so many samples.
-fn count(pixel: &PixelSamples, wanted: f64) -> usize {
-    let doublings = wanted.clamp(1.0, MOST_SAMPLES as f64).log2().round();
-    least_count(pixel).max(1 << doublings as u32)
+fn nearest_power(wanted: f64) -> usize {
+    1 << wanted.clamp(1.0, MOST_SAMPLES as f64).log2().round() as u32
 }
 
 /// By how much samples differ in each pixel, over its radiance where it is bright and over the picture's where it is dark:
-/// what matters in a picture that is looked at.
-fn deviations(samples: &FilmSamples) -> Vec<f64> {
+/// what matters in a picture that is looked at. With or without the pixel's own samples.
+fn deviations(samples: &FilmSamples, with_own: bool) -> Vec<f64> {
     let FilmSamples { width, pixels } = samples;
     let mean = pixels.iter().map(|p| f64::from(p.mean().element_sum())).sum::<f64>() / pixels.len() as f64;
     let height = pixels.len() / width;
@@ -143,17 +171,20 @@ fn deviations(samples: &FilmSamples) -> Vec<f64> {
         let (x, y) = (index % width, index / width);
         let columns = x.saturating_sub(REACH)..(x + REACH + 1).min(*width);
         let rows = y.saturating_sub(REACH)..(y + REACH + 1).min(height);
-        let count = (columns.len() * rows.len()) as f64;
         let near = rows.flat_map(|row| columns.clone().map(move |column| row * width + column));
-        let (mut sum, mut squares) = (DVec3::ZERO, 0.0);
+        let near = near.filter(|&other| with_own || other != index);
+        let (mut count, mut sum, mut squares) = (0.0, DVec3::ZERO, 0.0);
         for pixel in near.map(|index| &pixels[index]) {
             let mean = pixel.mean().as_dvec3();
+            count += 1.0;
             sum += mean;
             squares += f64::from(pixel.variance()) + mean.length_squared();
         }
+        let count = f64::max(count, 1.0);
         let variance = (squares - sum.length_squared() / count) / count;
-        let own = f64::from(pixels[index].mean().element_sum());
-        (variance.max(0.0) / (own * own + mean * mean).max(f64::MIN_POSITIVE)).sqrt()
+        let brightness =
+            if with_own { f64::from(pixels[index].mean().element_sum()) } else { sum.element_sum() / count };
+        (variance.max(0.0) / (brightness.powi(2) + mean * mean).max(f64::MIN_POSITIVE)).sqrt()
     };
     (0..pixels.len()).into_par_iter().map(deviation).collect()
 }
@@ -202,6 +233,21 @@ mod tests {
         // An edge between two pixels may run through either of them.
         let between = self::counts(&film(|pixel| [if pixel % SIZE < 8 { 0.2 } else { 0.6 }; 2], |_| false));
         assert!(between[7] >= 4 && between[8] >= 4 && between[6] == 1 && between[9] == 1, "{between:?}");
+    }
+
+    /// Else few hits would make for much weight, and a pixel's mean would be too dark.
+    #[test]
+    fn weights_do_not_depend_on_the_pixels_own_samples() {
+        let at = 5 * SIZE + 5;
+        let weights = |radiance: f32| {
+            let film =
+                film(|pixel| if pixel == at { [radiance, 0.5] } else { [0.5 + (pixel % 3) as f32, 0.5] }, |_| false);
+            let best = SampleCounts::best(4, &film, |_| 8);
+            (best.weight(at), best.weight(at + 1))
+        };
+        let (dark, bright) = (weights(0.0), weights(12.0));
+        assert_eq!(dark.0, bright.0);
+        assert!(dark.0 > 1.0 && bright.1 > dark.1, "{dark:?} {bright:?}");
     }
 
     #[test]

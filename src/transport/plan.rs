@@ -71,8 +71,8 @@ pub struct CausticPlan {
     pub guides: Arc<Vec<Guide>>,
     /// Whether the camera may see caustics in mirrors, through glass or in glossy surfaces.
     pub seen_indirectly: bool,
-    /// So many full iterations' directly seen caustics are gathered from the map, which is smoother while photons are
-    /// few.
+    /// Until radii are measured, so many full iterations' directly seen caustics are gathered from the map, which is smoother
+    /// while photons are few.
     pub gathered: f64,
 }
 
@@ -90,8 +90,12 @@ const LEAST_PATHS: f64 = 16_384.0;
 const MOST_PATHS: f64 = 524_288.0;
 /// Radius for interreflection in a draft, pixels' footprints.
 const DRAFT_RADIUS: f64 = 16.0;
-/// Photons a pixel from which on adding them to the film is better than a density estimate.
+/// Photons a pixel from which on adding them to the film is better than a density estimate, where caustics may be sharp: an
+/// area light blurs them.
 const PHOTONS_PER_PIXEL_TO_SPLAT: f64 = 1.0;
+/// Directly seen caustics are gathered where discs of more than this radius, pixels, are best. A disc of 0.65 pixels is as noisy
+/// as the pixel by itself, and has bias as well.
+const LARGE_CAUSTIC_RADIUS: f64 = 1.3;
 
 impl Plan {
     /// The plan for a world.
@@ -188,12 +192,30 @@ impl Plan {
         if self.is_draft { Lattice::draft(width) } else { Lattice::new(width, iteration) }
     }
 
-    /// Whether caustics that the camera sees directly come from the map in this iteration.
-    pub fn gathers_visible_caustics(&self, iteration: u64) -> bool {
+    /// Whether caustics that the camera sees directly in a pixel come from the map in this iteration; else each photon is
+    /// added to the film by itself.
+    pub(super) fn gathers_visible_caustics(&self, pixel: u32, iteration: u64) -> bool {
+        match &self.bandwidth {
+            None => self.begins_with_gathering(iteration),
+            Some(bandwidth) => self.caustic_radius * bandwidth.least_caustic_near(pixel) > LARGE_CAUSTIC_RADIUS,
+        }
+    }
+
+    /// Whether the map of caustics serves anything in this iteration.
+    pub fn needs_caustic_map(&self, iteration: u64) -> bool {
+        let Some(caustics) = &self.caustics else { return false };
+        caustics.seen_indirectly
+            || match &self.bandwidth {
+                None => self.begins_with_gathering(iteration) || schedule::measures(iteration),
+                Some(bandwidth) => self.caustic_radius * bandwidth.greatest_least_caustic() > LARGE_CAUSTIC_RADIUS,
+            }
+    }
+
+    fn begins_with_gathering(&self, iteration: u64) -> bool {
         self.caustics.as_ref().is_some_and(|caustics| schedule::size_before(iteration) < caustics.gathered)
     }
 
-    /// The weight of an iteration in the mean: its part of the paths of a full one.
+    /// The weight of an iteration in the mean of what photons bring: its part of the paths of a full one.
     pub fn weight(&self, iteration: u64) -> f64 {
         if self.is_draft { 1.0 } else { schedule::size(iteration) }
     }
@@ -208,6 +230,14 @@ impl Plan {
         }
         let before = |i| (CAMERA_SAMPLES * schedule::size_before(i)).ceil() as u64;
         before(iteration)..before(iteration + 1)
+    }
+
+    /// How much the mean of a pixel's samples of an iteration weighs beside those of other iterations.
+    pub(super) fn samples_weight(&self, pixel: u32, iteration: u64) -> f32 {
+        match &self.samples {
+            Some(samples) => samples.weight(pixel),
+            None => self.camera_samples(pixel, iteration).count() as f32,
+        }
     }
 
     /// The factor by which radii have shrunk in an iteration as long as nothing was measured.
@@ -314,7 +344,8 @@ fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
     );
     let seen_indirectly = plan_seen_indirectly(world, notes);
     let photons_per_pixel = paths.iter().sum::<u64>() as f64 / world.camera.pixel_count() as f64;
-    let gathered = PHOTONS_PER_PIXEL_TO_SPLAT / photons_per_pixel;
+    let may_be_sharp = world.lights.iter().any(|light| matches!(light, Light::Point { .. }));
+    let gathered = if may_be_sharp { PHOTONS_PER_PIXEL_TO_SPLAT / photons_per_pixel } else { f64::INFINITY };
     Some(CausticPlan { paths, guides: Arc::new(guides), seen_indirectly, gathered })
 }
 

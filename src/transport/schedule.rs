@@ -36,6 +36,11 @@ pub(super) fn refines_after(i: u64) -> bool {
     i >= FIRST_REFINEMENT && i.is_power_of_two()
 }
 
+/// How often samples and radii were chosen anew before iteration `i`, and once for the first iterations.
+pub(super) fn refinements_before(i: u64) -> u32 {
+    (i.saturating_sub(1).max(FIRST_REFINEMENT / 2) / (FIRST_REFINEMENT / 2)).ilog2()
+}
+
 /// Whether iteration `i` measures what the radii are chosen by: the first ones, whose radii differ much, do not.
 pub(super) fn measures(i: u64) -> bool {
     i > FIRST_REFINEMENT / 2
@@ -53,6 +58,15 @@ mod tests {
             sum += size(i);
         }
         assert_eq!((size(1), size(4), size(99)), (0.125, 1.0, 1.0));
+    }
+
+    #[test]
+    fn refinements_are_counted() {
+        let mut count = 0;
+        for i in 1..200 {
+            assert_eq!(refinements_before(i), count, "before iteration {i}");
+            count += u32::from(refines_after(i));
+        }
     }
 
     /// The recursion `r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1)` of the paper approaches the power form times 1.108.

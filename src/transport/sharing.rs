@@ -1,7 +1,7 @@
 //! Interreflection changes little from a pixel to the next. So in each iteration one pixel of four gathers it, and its
-//! neighbours take what it found. Which one that is and which neighbours take it changes from iteration to iteration, evenly
-//! to all sides: in the mean this blurs by less than a pixel, and shifts nothing. In a draft it is one of sixteen, and
-//! normal maps do not matter.
+//! neighbours take what it found, also where they see the same surface in a mirror or through glass. Which one that is and
+//! which neighbours take it changes from iteration to iteration, evenly to all sides: in the mean this blurs by less than a
+//! pixel, and shifts nothing. In a draft it is one of sixteen, and normal maps do not matter.
 
 use super::Rows;
 use super::bandwidth::WIDER;

@@ -11,7 +11,11 @@ pub(crate) fn scene(text: &str) -> SceneFile {
 }
 
 pub(crate) fn session(text: &str, iterations: u64) -> Session {
-    let mut session = Session::prepare(&scene(text), 1, None).expect("the scene can be prepared");
+    session_of_seed(text, iterations, 1)
+}
+
+pub(crate) fn session_of_seed(text: &str, iterations: u64, seed: u64) -> Session {
+    let mut session = Session::prepare(&scene(text), seed, None).expect("the scene can be prepared");
     while session.iterations() < iterations {
         session.advance(Cancel::NEVER).expect("never cancelled");
     }

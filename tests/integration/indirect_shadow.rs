@@ -1,6 +1,6 @@
 //! The shadow that a small bright spot casts: interreflection with an edge, known by summation over the spot.
 
-use crate::closed_forms::session;
+use crate::closed_forms::session_of_seed;
 use glam::{DVec2, DVec3};
 use patchlight::math::Rgb;
 use std::f64::consts::PI;
@@ -52,8 +52,8 @@ fn expected(x: f64, z: f64) -> f64 {
 }
 
 /// The means of the columns, so that noise does not count as an edge, and what they should be.
-fn columns(x: f64, iterations: u64) -> (Vec<f64>, Vec<f64>) {
-    let image = |max_bounces| session(&scene(x, max_bounces), iterations).film().image().pixels;
+fn columns(x: f64, iterations: u64, seed: u64) -> (Vec<f64>, Vec<f64>) {
+    let image = |max_bounces| session_of_seed(&scene(x, max_bounces), iterations, seed).film().image().pixels;
     let indirect: Vec<Rgb> = image(2).iter().zip(image(1)).map(|(all, direct)| all - direct).collect();
     let pixel = 6.0 * 15f64.to_radians().tan() / f64::from(HEIGHT);
     let (mut found, mut truth) = (vec![0.0; WIDTH as usize], vec![0.0; WIDTH as usize]);
@@ -69,18 +69,22 @@ fn columns(x: f64, iterations: u64) -> (Vec<f64>, Vec<f64>) {
 
 #[test]
 fn the_edge_of_an_indirect_shadow_is_sharp() {
-    let (found, truth) = columns(-1.0, 256);
-    let brightest = truth.iter().fold(0.0, |a: f64, &b| a.max(b));
-    let errors: Vec<f64> = found.iter().zip(&truth).map(|(found, truth)| (found - truth).abs() / brightest).collect();
-    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    // Radii that shrink like n^(-1/6) everywhere leave 0.032.
-    assert!(mean < 0.025, "{mean}");
+    // By a single seed the error may be a fifth more or less.
+    let error = |seed| {
+        let (found, truth) = columns(-1.0, 256, seed);
+        let brightest = truth.iter().fold(0.0, |a: f64, &b| a.max(b));
+        let errors = found.iter().zip(&truth).map(|(found, truth)| (found - truth).abs() / brightest);
+        errors.sum::<f64>() / truth.len() as f64
+    };
+    let mean = (1..=6).map(error).sum::<f64>() / 6.0;
+    // Radii that shrink like n^(-1/6) everywhere leave 0.0304.
+    assert!(mean < 0.0275, "{mean}");
 }
 
 /// Seen from right above the screen, the floor is dark on one side of its foot and bright on the other.
 #[test]
 fn light_neither_leaks_under_a_screen_nor_fades_in_front_of_it() {
-    let (found, truth) = columns(SCREEN.x, 64);
+    let (found, truth) = columns(SCREEN.x, 64, 1);
     let foot = WIDTH as usize / 2;
     assert!(found[foot - 8..foot].iter().all(|&behind| behind < 0.01 * truth[foot]), "{:?}", &found[foot - 8..foot]);
     let off = |k: usize| (found[k] / truth[k] - 1.0).abs();

@@ -150,7 +150,27 @@ impl PhotonMap {
         sum3(l, [l.add(sums[0], whole[0]), l.add(sums[1], whole[1]), l.add(sums[2], whole[2])])
     }
 
-    /// The same, each photon's flux times its factor by the tilt.
+    /// Sum of the squares of flux times the kernel: the variance of [`Self::sum_flux`] if photons are independent.
+    #[inline(always)]
+    pub(super) fn sum_squares<L: Lanes>(&self, l: L, query: &Query, stack: &mut Stack) -> Rgb {
+        let mut sums = [l.splat(0.0); 3];
+        self.visit::<L, false>(
+            l,
+            query,
+            stack,
+            #[inline(always)]
+            |block, weight| {
+                let flux = load3(l, &block.flux);
+                let weighted = [l.mul(weight, flux[0]), l.mul(weight, flux[1]), l.mul(weight, flux[2])];
+                for channel in 0..3 {
+                    sums[channel] = l.mul_add(weighted[channel], weighted[channel], sums[channel]);
+                }
+            },
+        );
+        sum3(l, sums)
+    }
+
+    /// The sum of flux, each photon's times its factor by the tilt.
     #[inline(always)]
     pub(super) fn sum_tilted_flux<L: Lanes>(&self, l: L, query: &Query, tilt: &Tilt, stack: &mut Stack) -> Rgb {
         let mut sums = [l.splat(0.0); 3];
