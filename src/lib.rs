@@ -116,6 +116,7 @@
 //! - \[LafortuneWillems94\] E. Lafortune, Y. Willems, Using the Modified Phong Reflectance Model for Physically Based
 //!   Rendering, KU Leuven CW 197, 1994.
 //! - \[LaineKarras11\] S. Laine, T. Karras, Stratified Sampling for Stochastic Transparency, EGSR 2011.
+//! - \[Mitchell96\] D. P. Mitchell, Consequences of Stratified Sampling in Graphics, SIGGRAPH 1996.
 //! - \[Neyman34\] J. Neyman, On the Two Different Aspects of the Representative Method, J. Royal Statistical Society 97(4),
 //!   1934.
 //! - \[Reinhard02\] E. Reinhard et al., Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002.

@@ -45,7 +45,7 @@ pub struct Contrast {
     /// Variance of that by the map of caustics, as far as it is by chance how many photons there are. Where a caustic is
     /// sharp, contrasts differ more by the places in the pixel that they are measured at.
     pub caustic_noise: f32,
-    /// Of the picture, which need not show what is in each map.
+    /// By the photons of those maps that the picture shows here.
     pub picture: f32,
 }
 
@@ -69,13 +69,14 @@ impl std::ops::AddAssign for Contrast {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Cells {
     width: u32,
+    height: u32,
     columns: u32,
     rows: u32,
 }
 
 impl Cells {
     fn new(width: u32, height: u32) -> Self {
-        Self { width, columns: width.div_ceil(CELL), rows: height.div_ceil(CELL) }
+        Self { width, height, columns: width.div_ceil(CELL), rows: height.div_ceil(CELL) }
     }
 
     fn count(&self) -> usize {
@@ -127,8 +128,8 @@ struct Sums {
     count: u32,
     contrast: f64,
     squares: f64,
-    /// Of what is known of their variances.
-    noise: Option<f64>,
+    /// Of the part of their variances that a wider disc makes less, where that is known apart: for caustics.
+    known_noise: Option<f64>,
 }
 
 impl Sums {
@@ -150,7 +151,7 @@ impl Sums {
 
     /// The part of this that a wider disc makes less.
     fn noise(&self) -> f64 {
-        self.noise.map_or_else(|| self.variance(), |noise| noise / f64::from(self.count.max(1)))
+        self.known_noise.map_or_else(|| self.variance(), |sum| sum / f64::from(self.count.max(1)))
     }
 
     /// The square of the expected contrast: that of the mean, less what noise adds to it; negative by chance.
@@ -175,20 +176,23 @@ impl Contrasts {
         Self { cells, maps: PerMap::from_fn(|_| none()), picture: none() }
     }
 
-    /// Whether a pixel of a film of this width is the one that is measured in its cell in an iteration.
-    pub(super) fn includes(width: u32, pixel: u32, iteration: u64) -> bool {
-        let (x, y) = (pixel % width % CELL, pixel / width % CELL);
-        let turn = schedule::refinements_before(iteration) % (CELL * CELL);
-        schedule::measures(iteration) && y * CELL + x == turn
+    /// Whether a pixel of a film of this size is the one that is measured in its cell in an iteration.
+    pub(super) fn includes([width, height]: [u32; 2], pixel: u32, iteration: u64) -> bool {
+        let (column, row) = (pixel % width, pixel / width);
+        // At the film's edge a cell may have fewer pixels.
+        let side = |at: u32, length: u32| CELL.min(length - at / CELL * CELL);
+        let (columns, rows) = (side(column, width), side(row, height));
+        let turn = schedule::refinements_before(iteration) % (columns * rows);
+        schedule::measures(iteration) && row % CELL * columns + column % CELL == turn
     }
 
     /// Adds what an iteration measured, a contrast for each pixel of the film.
     pub(super) fn add(&mut self, iteration: u64, contrasts: &[Contrast]) {
         for (pixel, contrast) in (0..).zip(contrasts) {
-            if Self::includes(self.cells.width, pixel, iteration) {
+            if Self::includes([self.cells.width, self.cells.height], pixel, iteration) {
                 let cell = self.cells.at(pixel);
                 MapKind::ALL.into_iter().for_each(|kind| self.maps[kind][cell].add(contrast.maps[kind]));
-                *self.maps[MapKind::Caustic][cell].noise.get_or_insert(0.0) += f64::from(contrast.caustic_noise);
+                *self.maps[MapKind::Caustic][cell].known_noise.get_or_insert(0.0) += f64::from(contrast.caustic_noise);
                 self.picture[cell].add(contrast.picture);
             }
         }
@@ -266,7 +270,8 @@ fn best_factors(cells: Cells, sums: &[Sums], most: f64, total: f64, measured_at:
     // x^6 = v / (2 N b^2), with v and b^2 from the contrast's variance and signal.
     let scale = EVENNESS * WIDER.powi(4) / (2.0 * total);
     let step = |signal: f64, variance: f64| {
-        if variance == 0.0 {
+        // Without photons, or a map, nothing is known.
+        if variance == 0.0 && signal == 0.0 {
             return 1.0;
         }
         let best = if signal > 0.0 { (scale * variance / signal).powf(1.0 / 6.0) } else { f64::INFINITY };
@@ -382,21 +387,33 @@ mod tests {
         let mut contrasts = measured(16, 0.0, 1.0);
         let quiet = Bandwidth::first(&contrasts, 16.0, 0.8).at(MapKind::Caustic, 0);
         for sums in &mut contrasts.maps[MapKind::Caustic] {
-            sums.noise = sums.noise.map(|noise| 0.01 * noise);
+            sums.known_noise = sums.known_noise.map(|noise| 0.01 * noise);
         }
         let sharp = Bandwidth::first(&contrasts, 16.0, 0.8).at(MapKind::Caustic, 0);
         assert!(sharp < 0.6 * quiet, "{sharp} {quiet}");
     }
 
     #[test]
-    fn each_pixel_is_measured_in_turn_on_films_of_any_size() {
-        for (width, height) in [(1, 1), (5, 3), (4, 4)] {
-            let mut contrasts = Contrasts::new(width, height);
-            let pixels = (width * height) as usize;
-            let iterations = [3, 5, 9, 17];
-            iterations.into_iter().for_each(|i| contrasts.add(i, &vec![Contrast::default(); pixels]));
-            assert_eq!(contrasts.maps[KIND].iter().map(|s| s.count).sum::<u32>(), width * height);
-            assert!((0..width * height).all(|p| Bandwidth::first(&contrasts, 8.0, 1.0).at(KIND, p) <= 1.0));
+    fn one_pixel_of_each_cell_is_measured_until_radii_are_chosen_anew_then_the_next() {
+        for (width, height) in [(1, 1), (5, 3), (4, 4), (64, 1)] {
+            let cells = Cells::new(width, height);
+            let mut turns = vec![0; (width * height) as usize];
+            for octave in 1..=4 {
+                let mut contrasts = Contrasts::new(width, height);
+                let iterations = (1 << octave) + 1..=(2 << octave);
+                let count = iterations.clone().count() as u32;
+                iterations.for_each(|i| contrasts.add(i, &vec![Contrast::default(); turns.len()]));
+                assert!(
+                    contrasts.maps[KIND].iter().all(|sums| sums.count == count),
+                    "octave {octave} of {width} x {height}"
+                );
+                for (pixel, turns) in (0..).zip(&mut turns) {
+                    *turns += u32::from(Contrasts::includes([width, height], pixel, 2 << octave));
+                }
+            }
+            // 1, 2 or 4 pixels share four octaves.
+            assert!(turns.iter().all(|&n| [1, 2, 4].contains(&n)), "{turns:?}");
+            assert_eq!(turns.iter().sum::<u32>() as usize, 4 * cells.count());
         }
     }
 }

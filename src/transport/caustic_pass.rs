@@ -1,7 +1,7 @@
 //! Photons that only mirrors and glass have touched, from the light to the first surface that scatters them: caustics.
 //!
-//! Where the camera sees that surface directly and caustics are sharp, the photon is also added to the film at once (light
-//! tracing); the density estimate is left to what is smooth, or seen in mirrors and through glass.
+//! Where the camera sees that surface directly and caustics are sharp, the photon is added to the film at once (light tracing);
+//! the density estimate is left to what is smooth, or seen in mirrors and through glass.
 
 use super::bsdf;
 use super::counters::Counters;

@@ -165,14 +165,17 @@ impl Gatherer<'_> {
     ) -> Gathered {
         let mut found = Gathered::default();
         let compares = self.plan.compares_discs(point.pixel, self.iteration);
-        let radii: ArrayVec<(MapKind, f64), 3> = MapKind::ALL
+        // With whether the picture shows what is in the map.
+        let radii: ArrayVec<(MapKind, bool, f64), 3> = MapKind::ALL
             .into_iter()
-            .filter(|kind| self.is_wanted(*kind, point) && (compares || self.shows(*kind, point)))
-            .map(|kind| (kind, self.radius(kind, point)))
+            .filter(|kind| self.is_wanted(*kind, point))
+            .map(|kind| (kind, self.shows(kind, point)))
+            .filter(|(_, shows)| compares || *shows)
+            .map(|(kind, shows)| (kind, shows, self.radius(kind, point)))
             .collect();
-        let largest = radii.iter().fold(0.0, |largest, (_, radius)| radius.max(largest));
+        let largest = radii.iter().fold(0.0, |largest, (_, _, radius)| radius.max(largest));
         let view = self.view(point, largest * if compares { WIDER } else { 1.0 }, counters);
-        for (kind, radius) in radii {
+        for (kind, shows, radius) in radii {
             let light = match shared {
                 Some(irradiance) if kind == MapKind::Global => {
                     point.throughput * irradiance * diffuse_reflection(point, radius)
@@ -184,7 +187,6 @@ impl Gatherer<'_> {
                     self.estimate(l, kind, stack, point, view.as_ref(), radius)
                 }
             };
-            let shows = self.shows(kind, point);
             if shows {
                 found.radiance += light;
             }
@@ -194,7 +196,7 @@ impl Gatherer<'_> {
                 found.contrast.maps[kind] = contrast;
                 found.contrast.picture += if shows { contrast } else { 0.0 };
                 if kind == MapKind::Caustic {
-                    found.contrast.caustic_noise = self.caustic_noise(l, stack, point, view.as_ref(), radius);
+                    found.contrast.caustic_noise = self.caustic_noise(l, stack, point, light, view.as_ref(), radius);
                 }
             }
         }
@@ -306,22 +308,25 @@ impl Gatherer<'_> {
         point.throughput * reflected
     }
 
-    /// Variance of the contrast of caustics, summed over channels, if their photons are independent.
+    /// Variance of the contrast of caustics if their photons are independent, for what they bring, summed over channels.
     #[inline(always)]
     fn caustic_noise<L: Lanes>(
         &self,
         l: L,
         stack: &mut Stack,
         point: &VisiblePoint,
+        light: Rgb,
         view: Option<&VisibilityPolygon>,
         radius: f64,
     ) -> f32 {
         let Some(disc) = self.disc(point, view, radius) else { return 0.0 };
-        let variance = self.maps[MapKind::Caustic].sum_squares(l, &disc.query, stack) / (disc.integral as f32).powi(2);
-        let deviation = Rgb::from_array(variance.to_array().map(f32::sqrt));
+        let map = &self.maps[MapKind::Caustic];
+        let sum = map.sum_flux(l, &disc.query, stack).element_sum();
         // All channels have the same photons.
-        let sum = (point.throughput * deviation * diffuse_reflection(point, radius)).element_sum();
-        ((1.0 - 1.0 / WIDER.powi(2)) as f32 * sum).powi(2)
+        let squares = map.sum_squares(l, &disc.query, stack);
+        let deviation: f32 = squares.to_array().map(f32::sqrt).iter().sum();
+        let relative = if sum > 0.0 { deviation / sum } else { 0.0 };
+        ((1.0 - 1.0 / WIDER.powi(2)) as f32 * relative * light.element_sum()).powi(2)
     }
 
     /// The disc of this radius round a point; none on a light's surface.

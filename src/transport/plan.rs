@@ -272,7 +272,7 @@ impl Plan {
 
     /// Whether light in a pixel is also gathered in wider discs in this iteration.
     pub(super) fn compares_discs(&self, pixel: u32, iteration: u64) -> bool {
-        !self.is_draft && Contrasts::includes(self.camera.width, pixel, iteration)
+        !self.is_draft && Contrasts::includes([self.camera.width, self.camera.height], pixel, iteration)
     }
 
     /// The plan for what follows iteration `i`, with the samples and radii that what was measured asks for; `None` where it

@@ -10,7 +10,7 @@ const GROWING_ITERATIONS: u32 = 3;
 /// iterations \[KZ11\].
 const ALPHA: f64 = 2.0 / 3.0;
 
-/// Paths in iteration `i` (from 1), parts of a full iteration: also its weight in the mean.
+/// Paths in iteration `i` (from 1), parts of a full iteration: also its weight in the mean of what photons bring.
 pub(super) fn size(i: u64) -> f64 {
     FIRST_SIZE * (1u64 << i.saturating_sub(1).min(u64::from(GROWING_ITERATIONS))) as f64
 }

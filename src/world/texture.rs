@@ -114,4 +114,31 @@ mod tests {
         assert!(slope.distance(DVec2::new(-1.8, -1.8)) < 1e-6, "falls to the right and upwards: {slope}");
         assert!(image.sample(DVec2::new(-1e-18, f64::MAX)).is_finite());
     }
+
+    #[test]
+    fn deep_and_flat_codes_mean_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let location = Location::Disk(folder.path().join("scene.toml"));
+        let decode = |file: &str, linear| {
+            let key = TextureKey { location: location.clone(), file: file.to_owned(), linear };
+            key.decode().unwrap()
+        };
+        let codes: Vec<u8> = vec![0, 1, 17, 100, 200, 255];
+        image::RgbImage::from_raw(2, 1, codes.clone()).unwrap().save(folder.path().join("flat.png")).unwrap();
+        let wide = codes.iter().map(|&code| 257 * u16::from(code)).collect();
+        let wide: image::ImageBuffer<image::Rgb<u16>, Vec<u16>> = image::ImageBuffer::from_raw(2, 1, wide).unwrap();
+        image::DynamicImage::from(wide).save(folder.path().join("deep.png")).unwrap();
+        for linear in [false, true] {
+            let (flat, deep) = (decode("flat.png", linear), decode("deep.png", linear));
+            assert!(matches!((&flat.texels, &deep.texels), (Texels::Bytes(_), Texels::Words(_))));
+            for x in 0..2 {
+                assert!(
+                    flat.texel(x, 0).distance(deep.texel(x, 0)) < 1e-6,
+                    "{}, {}",
+                    flat.texel(x, 0),
+                    deep.texel(x, 0)
+                );
+            }
+        }
+    }
 }

@@ -64,6 +64,12 @@ fn check_sums<L: Lanes>(l: L) {
                 let flat = Tilt { normal: Vec3::Y, limit: 1.1, bend: 0.0 };
                 map.for_each(l, &query, &flat, &mut stack, |weight, photon| by_visit += weight * photon.flux);
                 assert!(near(by_visit, expected), "{by_visit} against {expected}");
+                let mut squares = Rgb::ZERO;
+                map.for_each(l, &query, &flat, &mut stack, |weight, photon| {
+                    squares += (weight * photon.flux).powf(2.0)
+                });
+                let found = map.sum_squares(l, &query, &mut stack);
+                assert!(near(found, squares), "{found} against {squares}");
                 let found = map.sum_tilted_flux(l, &query, &Tilt { normal: n_shade, ..flat }, &mut stack);
                 assert!(near(found, tilted), "{found} against {tilted}");
                 let (red, blue) = (Rgb::new(0.5, 0.0, 0.0), Rgb::new(0.25, 0.0, 1.0));
