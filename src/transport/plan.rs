@@ -90,8 +90,7 @@ const LEAST_PATHS: f64 = 16_384.0;
 const MOST_PATHS: f64 = 524_288.0;
 /// Radius for interreflection in a draft, pixels' footprints.
 const DRAFT_RADIUS: f64 = 16.0;
-/// Photons a pixel from which on adding them to the film is better than a density estimate, where caustics may be sharp: an
-/// area light blurs them.
+/// Photons a pixel from which on adding them to the film is better than a density estimate, where caustics may be sharp.
 const PHOTONS_PER_PIXEL_TO_SPLAT: f64 = 1.0;
 /// Directly seen caustics are gathered where discs of more than this radius, pixels, are best. A disc of 0.65 pixels is as noisy
 /// as the pixel by itself, and has bias as well.
@@ -115,7 +114,7 @@ impl Plan {
             caustics,
             light_choice: Arc::new(LightChoice::new(world)),
             global_paths,
-            caustic_radius: 2.0,
+            caustic_radius: if are_large(world) { 4.0 } else { 2.0 },
             global_radius: 24.0,
             least_global_radius: 10.0,
             least_standing_radius: 5.0,
@@ -317,6 +316,8 @@ impl Plan {
 
 /// If no more of a light's paths reach the view, it is said to be out of it.
 const FEW: f64 = 0.01;
+/// A light with at least this part of the world's radius blurs caustics well.
+const LARGE_LIGHT: f64 = 0.1;
 const SEEN_INDIRECTLY: &str = "caustics in mirrors and glass";
 
 fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
@@ -344,9 +345,18 @@ fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
     );
     let seen_indirectly = plan_seen_indirectly(world, notes);
     let photons_per_pixel = paths.iter().sum::<u64>() as f64 / world.camera.pixel_count() as f64;
-    let may_be_sharp = world.lights.iter().any(|light| matches!(light, Light::Point { .. }));
-    let gathered = if may_be_sharp { PHOTONS_PER_PIXEL_TO_SPLAT / photons_per_pixel } else { f64::INFINITY };
+    let gathered = if may_be_sharp(world) { PHOTONS_PER_PIXEL_TO_SPLAT / photons_per_pixel } else { f64::INFINITY };
     Some(CausticPlan { paths, guides: Arc::new(guides), seen_indirectly, gathered })
+}
+
+/// Whether caustics may be as sharp as can be: area lights blur them.
+fn may_be_sharp(world: &World) -> bool {
+    world.lights.iter().any(|light| matches!(light, Light::Point { .. }))
+}
+
+/// Whether all lights are so large that hardly any caustic of theirs is sharp.
+fn are_large(world: &World) -> bool {
+    world.lights.iter().all(|light| light.reach() >= LARGE_LIGHT * world.radius)
 }
 
 fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
