@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::time::Instant;
 
 /// One whole round of the algorithm, for the film or a band of it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Iteration {
     /// For each pixel the radiance that photons bring.
     pub(super) photons: Vec<Rgb>,

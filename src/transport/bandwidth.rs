@@ -265,7 +265,8 @@ impl Bandwidth {
 fn best_factors(cells: Cells, sums: &[Sums], most: f64, total: f64, measured_at: impl Fn(usize) -> f64) -> Vec<f32> {
     let blurred = |of: fn(&Sums) -> f64| cells.blurred(&sums.iter().map(of).collect::<Vec<f64>>(), SIGNAL_REACH);
     let (signals, variances) = (blurred(Sums::signal), blurred(Sums::noise));
-    // What differs by places in the pixel is as sharp; photons of one path are not independent, so twice their noise is none.
+    // What differs more than photons do by chance differs by places in the pixel, and so is sharp. Twice their noise may still be
+    // chance: one path may leave several photons.
     let differences = blurred(|sums| sums.variance() - 2.0 * sums.noise());
     // x^6 = v / (2 N b^2), with v and b^2 from the contrast's variance and signal.
     let scale = EVENNESS * WIDER.powi(4) / (2.0 * total);

@@ -49,10 +49,11 @@ pub fn caustic_photon_pass(
 ) -> Option<CausticBatch> {
     let Some(caustics) = &plan.caustics else { return Some(CausticBatch::default()) };
     let paths = |&count: &u64| plan.paths(count, iteration);
+    let to_map = plan.needs_caustic_map(iteration);
     let blocks: Vec<CausticBatch> = blocks::of_photons(caustics.paths.iter().map(paths))
         .into_par_iter()
         .map(|block| {
-            let mut walk = Walk::new(world, plan, caustics, iteration);
+            let mut walk = Walk::new(world, plan, caustics, iteration, to_map);
             let paths = paths(&caustics.paths[block.light]);
             let count = paths.end - paths.start;
             // One sequence over all iterations: its points keep filling each other's gaps.
@@ -90,8 +91,7 @@ struct Branch {
 }
 
 impl<'a> Walk<'a> {
-    fn new(world: &'a World, plan: &'a Plan, caustics: &'a CausticPlan, iteration: u64) -> Self {
-        let to_map = plan.needs_caustic_map(iteration);
+    fn new(world: &'a World, plan: &'a Plan, caustics: &'a CausticPlan, iteration: u64, to_map: bool) -> Self {
         Self { world, plan, caustics, iteration, to_map, batch: CausticBatch::default(), branches: Vec::new() }
     }
 

@@ -1,9 +1,9 @@
 //! How many samples of direct light each pixel gets: many where they differ, one where they agree. For so many samples in
 //! all, the error of the picture is least where a pixel's samples go with their standard deviation \[Neyman34\].
 //!
-//! Samples weigh alike in their pixel's mean, whatever iteration they belong to. But if what weighs how much depended on a
-//! pixel's own samples, its mean would be biased: few hits make for few samples, and so for much weight. So weights go by the
-//! samples of the pixels around it.
+//! In its pixel's mean an iteration weighs by the number of samples too, so that the few of the first ones do not count as much
+//! as the many of later ones. But by the number that the pixels around ask for: if it went by a pixel's own samples, the mean
+//! would be biased, because few hits make for few samples, and so for much weight of the samples so far.
 
 use crate::math::Rgb;
 use glam::DVec3;
@@ -90,6 +90,15 @@ impl FilmSamples {
         Self { width: width as usize, pixels: vec![PixelSamples::default(); pixels] }
     }
 
+    /// The places of the pixels of the square around a pixel, itself included, as far as it lies on the film.
+    fn around(&self, index: usize) -> impl Iterator<Item = usize> {
+        let (width, height) = (self.width, self.pixels.len() / self.width);
+        let (x, y) = (index % width, index / width);
+        let columns = x.saturating_sub(REACH)..(x + REACH + 1).min(width);
+        let rows = y.saturating_sub(REACH)..(y + REACH + 1).min(height);
+        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+    }
+
     /// Adds those of an iteration.
     pub(super) fn add(&mut self, samples: &[PixelSamples]) {
         self.pixels.iter_mut().zip(samples).for_each(|(sum, samples)| sum.add(samples));
@@ -131,10 +140,14 @@ impl SampleCounts {
         let scales = (0..).map(|step| SAMPLES_PER_DEVIATION * (-0.125 * f64::from(step)).exp2());
         let scale = scales.take(MOST_STEPS).find(|&scale| !too_many(scale)).unwrap_or(0.0);
         let deviations_around = self::deviations(samples, false);
-        let pixel = |((pixel, count), deviation): ((usize, usize), &f64)| PixelCount {
-            first: next(pixel as u32).next_multiple_of(count as u64),
-            count: count as u8,
-            weight: nearest_power(scale * deviation) as u8,
+        let pixel = |((pixel, count), deviation): ((usize, usize), &f64)| {
+            let around = samples.around(pixel).filter(|&other| other != pixel);
+            let least = around.map(|other| least_count(&samples.pixels[other])).min().unwrap_or(1);
+            PixelCount {
+                first: next(pixel as u32).next_multiple_of(count as u64),
+                count: count as u8,
+                weight: least.max(nearest_power(scale * deviation)) as u8,
+            }
         };
         Self { first_iteration: i + 1, pixels: counts(scale).enumerate().zip(&deviations_around).map(pixel).collect() }
     }
@@ -164,15 +177,10 @@ fn nearest_power(wanted: f64) -> usize {
 /// By how much samples differ in each pixel, over its radiance where it is bright and over the picture's where it is dark:
 /// what matters in a picture that is looked at. With or without the pixel's own samples.
 fn deviations(samples: &FilmSamples, with_own: bool) -> Vec<f64> {
-    let FilmSamples { width, pixels } = samples;
+    let pixels = &samples.pixels;
     let mean = pixels.iter().map(|p| f64::from(p.mean().element_sum())).sum::<f64>() / pixels.len() as f64;
-    let height = pixels.len() / width;
     let deviation = |index: usize| {
-        let (x, y) = (index % width, index / width);
-        let columns = x.saturating_sub(REACH)..(x + REACH + 1).min(*width);
-        let rows = y.saturating_sub(REACH)..(y + REACH + 1).min(height);
-        let near = rows.flat_map(|row| columns.clone().map(move |column| row * width + column));
-        let near = near.filter(|&other| with_own || other != index);
+        let near = samples.around(index).filter(|&other| with_own || other != index);
         let (mut count, mut sum, mut squares) = (0.0, DVec3::ZERO, 0.0);
         for pixel in near.map(|index| &pixels[index]) {
             let mean = pixel.mean().as_dvec3();
@@ -248,6 +256,13 @@ mod tests {
         let (dark, bright) = (weights(0.0), weights(12.0));
         assert_eq!(dark.0, bright.0);
         assert!(dark.0 > 1.0 && bright.1 > dark.1, "{dark:?} {bright:?}");
+    }
+
+    #[test]
+    fn where_all_pixels_around_get_more_samples_they_weigh_more() {
+        let best = SampleCounts::best(4, &film(|_| [0.7; 2], |pixel| pixel % SIZE < 8), |_| 8);
+        let row = 5 * SIZE;
+        assert_eq!([6, 7, 8, 9].map(|x| best.weight(row + x)), [SAMPLES_OF_VARIED as f32, 1.0, 1.0, 1.0]);
     }
 
     #[test]

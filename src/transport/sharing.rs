@@ -131,7 +131,11 @@ impl VisiblePoint {
 
 #[cfg(test)]
 mod tests {
+    use super::super::camera_pass::Clearance;
     use super::*;
+    use crate::math::Rgb;
+    use crate::world::{Lobe, Scattering};
+    use glam::{DVec2, Vec3};
 
     #[test]
     fn in_the_mean_pixels_take_from_all_sides_alike() {
@@ -172,6 +176,44 @@ mod tests {
                 }
             }
         }
+    }
+
+    fn point(pixel: u32, tag: u32, x: f32) -> VisiblePoint {
+        VisiblePoint {
+            pixel,
+            position: Vec3::new(x, 0.0, 0.0),
+            n_side: Vec3::Y,
+            n_shade: Vec3::Y,
+            wo: Vec3::Y,
+            throughput: Rgb::ONE,
+            scattering: Scattering { albedo: Rgb::ONE, lobe: Lobe::None },
+            footprint: 0.1,
+            clearance: Clearance { any: f64::INFINITY, standing: f64::INFINITY },
+            primitive: 0,
+            uv: DVec2::ZERO,
+            tag,
+            photon_bounces: 3,
+            mean_albedo: Rgb::ONE,
+            spread: 0.0,
+            first_facet: 0,
+            facets: 0,
+            seen_directly: true,
+        }
+    }
+
+    /// Pixel 0 gathers for pixel 1. Each sees a floor (0), and a wall (8) in a mirror.
+    #[test]
+    fn pixels_share_each_surface_that_both_see() {
+        let (floor, wall) = (0, 8);
+        let points = [point(0, floor, 0.0), point(0, wall, 5.0), point(1, wall, 5.1), point(1, floor, 0.1)];
+        let shared = |points: &[VisiblePoint]| Sharing::new(Lattice::new(2, 0), points, |_| 1.0).leader;
+        assert_eq!(shared(&points), [Some(0), Some(1), Some(1), Some(0)]);
+        let far = [points[0], points[1], point(1, wall, 5.4), point(1, floor, 0.1)];
+        assert_eq!(shared(&far)[2], None, "a fourth of the radius is the limit");
+        let later = [points[0], points[1], VisiblePoint { photon_bounces: 2, ..points[2] }, points[3]];
+        assert_eq!(shared(&later)[2], None, "other photons count there");
+        let near = [points[0], point(0, floor, 0.2), point(1, floor, 0.15)];
+        assert_eq!(shared(&near), [Some(0), Some(1), Some(1)], "the nearest of a pixel's points");
     }
 
     #[test]
