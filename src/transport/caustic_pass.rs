@@ -207,7 +207,8 @@ impl<'a> Walk<'a> {
     /// `phi f |cos| / (d^2 solid angle of the pixel)` to the pixel's mean radiance. Not where the pixel gathers it.
     fn splat(&mut self, flux: Rgb, wi: DVec3, point: &SurfacePoint, scattering: &Scattering, n_shade: DVec3) {
         let Some(seen) = self.plan.camera.project(point.position) else { return };
-        if self.plan.gathers_visible_caustics(seen.pixel, self.iteration) {
+        let primitive = &self.world.aggregate.primitives()[point.hit.primitive as usize];
+        if self.plan.gathers_visible_caustics(primitive, seen.pixel, self.iteration) {
             return;
         }
         let wo = seen.to_camera;

@@ -30,7 +30,7 @@ const POINTS_PER_BLOCK: usize = 1024;
 /// what changes between them is less than the disc blurs anyway, and shrinks with it.
 const PIXEL_PART_OF_RADIUS: f64 = 0.5;
 /// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
-const MAX_PART_OF_SPHERE: f64 = 0.32;
+pub(super) const MAX_PART_OF_SPHERE: f64 = 0.32;
 
 /// What is found at a visible point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -220,8 +220,10 @@ impl Gatherer<'_> {
 
     /// Whether the picture shows what is in a map here: not where the photons themselves are added to the film.
     fn shows(&self, kind: MapKind, point: &VisiblePoint) -> bool {
-        let is_splatted = || point.seen_directly && !self.plan.gathers_visible_caustics(point.pixel, self.iteration);
-        kind != MapKind::Caustic || !is_splatted()
+        let primitive = || &self.world.aggregate.primitives()[point.primitive as usize];
+        kind != MapKind::Caustic
+            || !point.seen_directly
+            || self.plan.gathers_visible_caustics(primitive(), point.pixel, self.iteration)
     }
 
     /// The radius of a point's disc, scene units.
@@ -239,7 +241,11 @@ impl Gatherer<'_> {
             Some(measured) if is_patch => measured.min(1.0),
             Some(measured) => measured,
         };
-        self.limited(point, unshrunk * factor.max(1.0)) * factor.min(1.0)
+        let radius = self.limited(point, unshrunk * factor.max(1.0)) * factor.min(1.0);
+        match kind {
+            MapKind::Caustic => plan.limited_caustic_radius(radius, footprint, point.clearance),
+            MapKind::Global | MapKind::Focused => radius,
+        }
     }
 
     /// What a point sees of its surface within the reach, if an object that stands there hides some of it.

@@ -3,7 +3,10 @@
 //!
 //! In its pixel's mean an iteration weighs by the number of samples too, so that the few of the first ones do not count as much
 //! as the many of later ones. But by the number that the pixels around ask for: if it went by a pixel's own samples, the mean
-//! would be biased, because few hits make for few samples, and so for much weight of the samples so far.
+//! would be biased, because few hits make for few samples, and so for much weight of the samples so far. Some of that is left,
+//! because those around have more samples where its own differ: lamps of a fifth of a pixel at pixels' corners are 4 % too dark
+//! after 16 iterations, 0.5 % after 64, a small part of their noise. With weights that are told by samples taken in any case it
+//! is 0.3 %, but highlights in curved mirrors have 1.3 times the relMSE.
 
 use crate::math::Rgb;
 use glam::DVec3;
@@ -142,7 +145,8 @@ impl SampleCounts {
         let deviations_around = self::deviations(samples, false);
         let pixel = |((pixel, count), deviation): ((usize, usize), &f64)| {
             let around = samples.around(pixel).filter(|&other| other != pixel);
-            let least = around.map(|other| least_count(&samples.pixels[other])).min().unwrap_or(1);
+            // Alone on its film, all its iterations weigh alike.
+            let least = around.map(|other| least_count(&samples.pixels[other])).min().unwrap_or(SAMPLES_OF_VARIED);
             PixelCount {
                 first: next(pixel as u32).next_multiple_of(count as u64),
                 count: count as u8,
@@ -263,6 +267,14 @@ mod tests {
         let best = SampleCounts::best(4, &film(|_| [0.7; 2], |pixel| pixel % SIZE < 8), |_| 8);
         let row = 5 * SIZE;
         assert_eq!([6, 7, 8, 9].map(|x| best.weight(row + x)), [SAMPLES_OF_VARIED as f32, 1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn alone_on_its_film_a_pixel_weighs_alike_in_all_full_iterations() {
+        let mut film = FilmSamples::new(1, 1);
+        film.add(&[PixelSamples { count: 8, sum: Rgb::ONE, squares: 3.0, surface: 1, ..PixelSamples::default() }]);
+        let best = SampleCounts::best(4, &film, |_| 8);
+        assert_eq!((best.at(0, 5).count(), best.weight(0)), (4, 4.0));
     }
 
     #[test]

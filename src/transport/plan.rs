@@ -3,6 +3,7 @@
 use super::Rows;
 use super::bandwidth::{self, Bandwidth, Contrasts, WIDER};
 use super::camera_pass::Clearance;
+use super::gather::MAX_PART_OF_SPHERE;
 use super::guide::Guide;
 use super::light_choice::{CHOSEN, LightChoice};
 use super::maps::MapKind;
@@ -41,8 +42,10 @@ pub struct Plan {
     pub light_choice: Arc<LightChoice>,
     /// Paths that look for interreflection in a full iteration, by light; empty where there is none.
     pub global_paths: Vec<u64>,
-    /// Radius of the density estimate of caustics after one full iteration, pixels' footprints.
+    /// Radius of the density estimate of caustics after one full iteration, where nothing is near, pixels' footprints.
     pub caustic_radius: f64,
+    /// The same where another object is at hand: it may cast sharp shadows in the caustic.
+    pub least_caustic_radius: f64,
     /// The same for interreflection, where nothing is near.
     pub global_radius: f64,
     /// The same where another object is at hand.
@@ -83,7 +86,9 @@ const GLOBAL_PATHS_PER_PIXEL: f64 = 4.0;
 const CAMERA_SAMPLES: f64 = 4.0;
 /// Paths for caustics in a full iteration, for each pixel.
 const CAUSTIC_PATHS_PER_PIXEL: f64 = 2.0;
-/// Radii for interreflection are at most this part of the distance to the next object.
+/// Radius of the density estimate of caustics that may be sharp, after one full iteration, pixels' footprints.
+const CAUSTIC_RADIUS: f64 = 2.0;
+/// Radii, but for the least ones, are at most this part of the distance to the next object.
 const PART_OF_CLEARANCE: f64 = 0.5;
 const LEAST_PATHS: f64 = 16_384.0;
 /// More would make an iteration last longer than a user waits for the next frame.
@@ -114,7 +119,8 @@ impl Plan {
             caustics,
             light_choice: Arc::new(LightChoice::new(world)),
             global_paths,
-            caustic_radius: if are_large(world) { 4.0 } else { 2.0 },
+            caustic_radius: if are_large(world) { 4.0 } else { CAUSTIC_RADIUS },
+            least_caustic_radius: CAUSTIC_RADIUS,
             global_radius: 24.0,
             least_global_radius: 10.0,
             least_standing_radius: 5.0,
@@ -147,6 +153,7 @@ impl Plan {
             caustics,
             global_paths: fewer(&self.global_paths, global_paths),
             caustic_radius: caustic_wider * self.caustic_radius,
+            least_caustic_radius: caustic_wider * self.caustic_radius,
             least_global_radius: DRAFT_RADIUS * global_wider,
             least_standing_radius: DRAFT_RADIUS * global_wider,
             global_radius: DRAFT_RADIUS * global_wider,
@@ -167,6 +174,12 @@ impl Plan {
         by_any.min((PART_OF_CLEARANCE * clearance.standing).max(self.least_standing_radius * footprint))
     }
 
+    /// A radius for caustics, limited at a point with this footprint and this far from other objects: discs that
+    /// reach over several of them and their shadows would not tell that it differs between these.
+    pub(super) fn limited_caustic_radius(&self, radius: f64, footprint: f64, clearance: Clearance) -> f64 {
+        radius.min((PART_OF_CLEARANCE * clearance.any).max(self.least_caustic_radius * footprint))
+    }
+
     /// The distances from which on other objects matter neither for radii nor for what is seen within them; `None`
     /// where none ever does.
     pub(super) fn wanted_clearance(&self, footprint: f64) -> Option<Clearance> {
@@ -174,8 +187,8 @@ impl Plan {
         let (caustic, focused) =
             (grown(MapKind::Caustic, self.caustic_radius), grown(MapKind::Focused, self.focused_radius));
         let widest = WIDER * caustic.max(focused).max(self.least_standing_radius);
-        let global = |radius: f64| if self.global_paths.is_empty() { 0.0 } else { radius / PART_OF_CLEARANCE };
-        let limit = |radius: f64| footprint * widest.max(global(radius));
+        let global = |radius: f64| if self.global_paths.is_empty() { 0.0 } else { radius };
+        let limit = |radius: f64| footprint * widest.max(global(radius).max(caustic) / PART_OF_CLEARANCE);
         let limits = Clearance { any: limit(self.global_radius), standing: limit(self.least_global_radius) };
         (self.gathers() && !self.is_draft).then_some(limits)
     }
@@ -192,15 +205,23 @@ impl Plan {
     }
 
     /// Whether caustics that the camera sees directly in a pixel come from the map in this iteration; else each photon is
-    /// added to the film by itself.
-    pub(super) fn gathers_visible_caustics(&self, pixel: u32, iteration: u64) -> bool {
-        match &self.bandwidth {
+    /// added to the film by itself. On balls so small that only small discs lie flat, it always is.
+    pub(super) fn gathers_visible_caustics(&self, primitive: &Primitive, pixel: u32, iteration: u64) -> bool {
+        let is_large = match &self.bandwidth {
             None => self.begins_with_gathering(iteration),
             Some(bandwidth) => self.caustic_radius * bandwidth.least_caustic_near(pixel) > LARGE_CAUSTIC_RADIUS,
-        }
+        };
+        is_large && (self.is_draft || self.holds_large_disc(primitive))
     }
 
-    /// Whether the map of caustics serves anything in this iteration.
+    fn holds_large_disc(&self, primitive: &Primitive) -> bool {
+        let Primitive::Sphere(sphere) = primitive else { return true };
+        let footprint = self.camera.footprint(self.camera.position.distance(sphere.center));
+        MAX_PART_OF_SPHERE * sphere.radius > LARGE_CAUSTIC_RADIUS * footprint
+    }
+
+    /// Whether the map of caustics serves anything in this iteration. Once it does not it never will: nothing is measured
+    /// any more, and the best radii get smaller as iterations get more.
     pub fn needs_caustic_map(&self, iteration: u64) -> bool {
         let Some(caustics) = &self.caustics else { return false };
         caustics.seen_indirectly
@@ -349,9 +370,10 @@ fn plan_caustics(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
     Some(CausticPlan { paths, guides: Arc::new(guides), seen_indirectly, gathered })
 }
 
-/// Whether caustics may be as sharp as can be: area lights blur them.
+/// Whether caustics may be as sharp as can be: lights blur them if they are larger than the discs.
 fn may_be_sharp(world: &World) -> bool {
-    world.lights.iter().any(|light| matches!(light, Light::Point { .. }))
+    let distance = world.camera.position.distance(world.center).max(world.radius);
+    world.lights.iter().any(|light| light.reach() < CAUSTIC_RADIUS * world.camera.footprint(distance))
 }
 
 /// Whether all lights are so large that hardly any caustic of theirs is sharp.
@@ -528,5 +550,28 @@ impl Notes {
                     .to_owned(),
             );
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Location, SceneFile};
+    use crate::world::prepare;
+
+    #[test]
+    fn discs_for_caustics_are_small_where_objects_are_near() {
+        let text = "version = 1\n[camera]\nposition = [0, 0, 9]\ntarget = [0, 0, 0]\nfov_y = 40
+            [[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = 1\nradiance = [1, 1, 1]\n";
+        let file = SceneFile::parse(text, Location::Unsaved).expect("the scene is valid");
+        let plan = Plan::new(&prepare(&file.scene, &Location::Unsaved, None).expect("it can be prepared"));
+        let radius = |wanted: f64, any: f64| {
+            plan.limited_caustic_radius(wanted, 0.01, Clearance { any, standing: f64::INFINITY })
+        };
+        let half = 0.5 * plan.caustic_radius * 0.01;
+        assert_eq!(radius(0.04, f64::INFINITY), 0.04);
+        assert_eq!(radius(0.04, 0.06), 0.03);
+        assert_eq!(radius(0.04, 0.0), half, "no less than where caustics may be sharp");
+        assert_eq!(radius(0.5 * half, 0.0), 0.5 * half, "but for shrinking");
     }
 }

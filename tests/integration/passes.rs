@@ -107,6 +107,32 @@ fn cardioid_cusp() {
     assert!((beyond_center - 1.0 / 3.0).abs() < 0.025, "the cusp is at {beyond_center}");
 }
 
+/// Caustic light of iteration 4 that goes straight to the film, under a spherical lamp of this radius.
+fn splats(lamp: f64, scattering: &str) -> usize {
+    let world = world(&format!(
+        "[camera]\nposition = [0, 2, 6]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 64\nheight = 64
+        [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5
+        [[material]]\nname = \"w\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
+        [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.5\nmaterial = \"glass\"
+        [[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = {lamp}\nradiance = [1, 1, 1]\n{scattering}"
+    ));
+    caustic_photon_pass(&world, &Plan::new(&world), 1, 4, Cancel::NEVER).expect("never cancelled").splats.len()
+}
+
+#[test]
+fn only_large_lamps_and_surfaces_begin_with_discs_for_caustics_in_view() {
+    let floor =
+        "[[object]]\nname = \"f\"\ntype = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\nmaterial = \"w\"\n";
+    let ball = |radius: f64| {
+        format!(
+            "[[object]]\nname = \"b\"\ntype = \"sphere\"\ncenter = [0, -0.5, 0]\nradius = {radius}\nmaterial = \"w\"\n"
+        )
+    };
+    assert_eq!((splats(0.5, floor), splats(0.5, &ball(0.5))), (0, 0));
+    assert!(splats(1e-3, floor) > 100, "as small as a point");
+    assert!(splats(0.5, &ball(0.05)) > 10, "no large disc fits on so small a ball");
+}
+
 const MIXED: &str = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 40\nheight = 30
     [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5\ntint = [0.9, 1, 0.9]
     [[material]]\nname = \"wall\"\ntype = \"polished\"\nalbedo = [0.5, 0.4, 0.3]\nreflectance = [0.2, 0.2, 0.2]
