@@ -231,6 +231,9 @@ mod tests {
             parts[usize::from(i > 4)].commit(weight, &photons, &samples);
         }
         let [mut first, second] = parts;
+        let mut nothing_yet = FilmSums::new(20, 20);
+        nothing_yet.merge(&second);
+        assert_eq!(nothing_yet, second);
         first.merge(&second);
         assert_eq!(first.iterations(), 9);
         for (a, b) in first.image().pixels.iter().zip(&whole.image().pixels) {

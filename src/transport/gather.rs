@@ -10,7 +10,7 @@ use super::maps::{MapKind, Maps};
 use super::photon::Photon;
 use super::photon_map::{PhotonMap, Query, Stack};
 use super::photon_pass::MAX_SHADING_FACTOR;
-use super::plan::Plan;
+use super::plan::{MAX_PART_OF_SPHERE, Plan};
 use super::sharing::Sharing;
 use super::tilt::Tilt;
 use super::visibility_polygon::{Lookout, VisibilityPolygon};
@@ -29,8 +29,6 @@ const POINTS_PER_BLOCK: usize = 1024;
 /// Where a pixel's paths meet a surface nearer to each other than this part of a disc's radius, they find the same light there:
 /// what changes between them is less than the disc blurs anyway, and shrinks with it.
 const PIXEL_PART_OF_RADIUS: f64 = 0.5;
-/// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
-pub(super) const MAX_PART_OF_SPHERE: f64 = 0.32;
 
 /// What is found at a visible point.
 #[derive(Clone, Copy, Debug, Default)]

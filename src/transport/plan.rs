@@ -3,7 +3,6 @@
 use super::Rows;
 use super::bandwidth::{self, Bandwidth, Contrasts, WIDER};
 use super::camera_pass::Clearance;
-use super::gather::MAX_PART_OF_SPHERE;
 use super::guide::Guide;
 use super::light_choice::{CHOSEN, LightChoice};
 use super::maps::MapKind;
@@ -100,6 +99,8 @@ const PHOTONS_PER_PIXEL_TO_SPLAT: f64 = 1.0;
 /// Directly seen caustics are gathered where discs of more than this radius, pixels, are best. A disc of 0.65 pixels is as noisy
 /// as the pixel by itself, and has bias as well.
 const LARGE_CAUSTIC_RADIUS: f64 = 1.3;
+/// A disc may cover this part of a sphere's radius, so that it stays nearly flat.
+pub(super) const MAX_PART_OF_SPHERE: f64 = 0.32;
 
 impl Plan {
     /// The plan for a world.
@@ -205,7 +206,7 @@ impl Plan {
     }
 
     /// Whether caustics that the camera sees directly in a pixel come from the map in this iteration; else each photon is
-    /// added to the film by itself. On balls so small that only small discs lie flat, it always is.
+    /// added to the film by itself, as it always is on balls so small that only small discs lie flat on them.
     pub(super) fn gathers_visible_caustics(&self, primitive: &Primitive, pixel: u32, iteration: u64) -> bool {
         let is_large = match &self.bandwidth {
             None => self.begins_with_gathering(iteration),
@@ -220,8 +221,8 @@ impl Plan {
         MAX_PART_OF_SPHERE * sphere.radius > LARGE_CAUSTIC_RADIUS * footprint
     }
 
-    /// Whether the map of caustics serves anything in this iteration. Once it does not it never will: nothing is measured
-    /// any more, and the best radii get smaller as iterations get more.
+    /// Whether the map of caustics serves anything in this iteration. Where measured radii say that it does not, it never will:
+    /// nothing is measured any more, and the best radii get smaller as iterations get more.
     pub fn needs_caustic_map(&self, iteration: u64) -> bool {
         let Some(caustics) = &self.caustics else { return false };
         caustics.seen_indirectly
