@@ -94,6 +94,7 @@
 //! | share | of a light: about the part of the direct light at a point that is its own |
 //! | bandwidth | radii of density estimates over the film, chosen by the contrasts |
 //! | focused | of photons: sent on by mirrors or glass after they were scattered |
+//! | lobe view | a Phong lobe as it shows one direction: tells which light seen in it is the camera's, and which photons bring |
 //! | lanes | numbers that one vector instruction handles side by side |
 //! | control net | the 4 x 4 control points of a patch; `dpdu`, `dpdv` are the surface's derivatives |
 //! | specular | going on in one direction: mirrors and glass; *glossy*: a Phong lobe |
@@ -106,6 +107,7 @@
 //! - \[Clarberg08\] P. Clarberg, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, JGT 13(3), 2008.
 //! - \[Duff17\] T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
 //! - \[FanGijbels96\] J. Fan, I. Gijbels, Local Polynomial Modelling and Its Applications, 1996.
+//! - \[GKDS12\] I. Georgiev et al., Light Transport Simulation with Vertex Connection and Merging, ACM TOG 31(6), 2012.
 //! - \[Haines19\] E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray
 //!   Tracing Gems, 2019.
 //! - \[Jensen96\] H. W. Jensen, Global Illumination using Photon Maps, EGWR 1996.

@@ -90,6 +90,7 @@ fn iteration(world: &World, plan: &Plan) -> f64 {
         caustic: PhotonMap::build(&caustic.photons),
         global: PhotonMap::build(&global.photons),
         focused: PhotonMap::build(&global.focused),
+        glossy: PhotonMap::build(&global.glossy),
     };
     let band = |rows| {
         let seen: CameraBatch = camera_pass(world, plan, &rows, 1, ITERATION, Cancel::NEVER).expect("never cancelled");

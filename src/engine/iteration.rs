@@ -1,8 +1,8 @@
 use super::frame::PassSeconds;
 use crate::math::Rgb;
 use crate::transport::{
-    Cancel, Contrast, Counters, Maps, PhotonMap, PixelSamples, Plan, Rows, camera_pass, caustic_photon_pass, gather,
-    global_photon_pass,
+    Cancel, Contrast, Counters, MapKind, Maps, PhotonMap, PixelSamples, Plan, Rows, camera_pass, caustic_photon_pass,
+    gather, global_photon_pass,
 };
 use crate::world::World;
 use rayon::prelude::*;
@@ -34,13 +34,12 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     counters += global.counters;
 
     let maps = timed(&mut seconds.map, || {
-        let (global, (caustic, focused)) = rayon::join(
-            || PhotonMap::build(&global.photons),
-            || (PhotonMap::build(&caustic.photons), PhotonMap::build(&global.focused)),
-        );
-        Maps { caustic, global, focused }
+        let others = [&caustic.photons, &global.focused, &global.glossy];
+        let (global, [caustic, focused, glossy]) =
+            rayon::join(|| PhotonMap::build(&global.photons), || others.map(|photons| PhotonMap::build(photons)));
+        Maps { caustic, global, focused, glossy }
     });
-    let built = [&maps.caustic, &maps.global, &maps.focused].into_iter().filter(|map| !map.is_empty()).count();
+    let built = MapKind::ALL.into_iter().filter(|kind| !maps[*kind].is_empty()).count();
     counters.map_builds += built as u64;
 
     let bands = plan.bands(i).into_par_iter().map(|rows| render_band(world, plan, &maps, &rows, seed, i, cancel));

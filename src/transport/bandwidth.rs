@@ -32,7 +32,7 @@ const STEP: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 /// small ones, because it may be sharp; most of it is not.
 pub(super) fn most_growth(kind: MapKind) -> f64 {
     match kind {
-        MapKind::Global => 1.0,
+        MapKind::Global | MapKind::Glossy => 1.0,
         MapKind::Caustic | MapKind::Focused => 3.0,
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::math::{Frame, Rgb, warp};
 use crate::world::{Lobe, Scattering};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 
 /// What a smooth dielectric does with unpolarised light.
@@ -61,6 +61,43 @@ pub(super) fn eval_glossy(scattering: &Scattering, n_shade: DVec3, wo: DVec3, wi
     let Lobe::Phong { specular, exponent } = scattering.lobe else { return Rgb::ZERO };
     let cos = reflect(wo, n_shade).dot(wi);
     if cos > 0.0 { specular * ((exponent + 2.0) / TAU * cos.powf(exponent)) as f32 } else { Rgb::ZERO }
+}
+
+/// A Phong lobe for a direction `wo`, where many directions are asked and single precision is enough: values are right to
+/// 1e-7 times the exponent.
+#[derive(Clone, Copy)]
+pub(super) struct GlossyLobe {
+    /// Value in the middle, per steradian.
+    peak: Rgb,
+    exponent: f32,
+    mirrored: Vec3,
+    /// Cosine of the angle to the mirror direction from which on the value matters.
+    least_cos: f32,
+}
+
+impl GlossyLobe {
+    /// Less than this part of the value in the middle does not matter: of all light it is a smaller part still.
+    const LEAST_PART: f64 = 1e-4;
+
+    /// `None` where there is no lobe.
+    pub(super) fn new(scattering: &Scattering, n_shade: Vec3, wo: Vec3) -> Option<Self> {
+        let Lobe::Phong { specular, exponent } = scattering.lobe else { return None };
+        let mirrored = reflect(wo.as_dvec3(), n_shade.as_dvec3()).as_vec3();
+        let least_cos = Self::LEAST_PART.powf(1.0 / exponent) as f32;
+        let peak = specular * ((exponent + 2.0) / TAU) as f32;
+        Some(Self { peak, exponent: exponent as f32, mirrored, least_cos })
+    }
+
+    /// As [`eval_glossy`].
+    pub(super) fn eval(&self, wi: Vec3) -> Rgb {
+        let cos = self.mirrored.dot(wi).min(1.0);
+        if cos > self.least_cos { self.peak * cos.powf(self.exponent) } else { Rgb::ZERO }
+    }
+}
+
+/// The scattering function for two directions, per steradian, without mirrors and glass.
+pub(super) fn eval(scattering: &Scattering, n_shade: DVec3, wo: DVec3, wi: DVec3) -> Rgb {
+    eval_diffuse(scattering) + eval_glossy(scattering, n_shade, wo, wi)
 }
 
 /// Density with which [`sample_glossy`] chooses `wi`, per steradian.
@@ -134,5 +171,24 @@ mod tests {
             })
             .sum();
         assert!((mean - 1.0).abs() < 1e-3, "{mean}");
+    }
+
+    #[test]
+    fn the_lobe_for_many_directions_is_the_same() {
+        let (n_shade, wo) = (Vec3::Z, Vec3::new(0.6, 0.0, 0.8));
+        for exponent in [0.0, 1.0, 7.5, 300.0] {
+            let lobe = Lobe::Phong { specular: Rgb::new(1.0, 0.5, 0.0), exponent };
+            let scattering = Scattering { albedo: Rgb::ONE, lobe };
+            let many = GlossyLobe::new(&scattering, n_shade, wo).expect("there is a lobe");
+            for k in 0..1000 {
+                let wi = DVec3::new(-0.6, 0.0, 0.8) + 1e-6 * f64::from(k).powi(2) * DVec3::new(0.3, -0.2, -0.7);
+                let wi = wi.normalize();
+                let one = eval_glossy(&scattering, n_shade.as_dvec3(), wo.as_dvec3(), wi);
+                let least = 2e-4 * many.peak.max_element();
+                assert!((many.eval(wi.as_vec3()) - one).abs().max_element() < least, "{exponent} {wi}");
+            }
+        }
+        let none = Scattering { albedo: Rgb::ONE, lobe: Lobe::None };
+        assert!(GlossyLobe::new(&none, n_shade, wo).is_none());
     }
 }

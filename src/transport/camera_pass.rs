@@ -2,7 +2,8 @@
 
 use super::bsdf;
 use super::counters::Counters;
-use super::direct::{self, Vertex};
+use super::direct::{self, Shown, Vertex};
+use super::lobe_light::LobeView;
 use super::medium::Media;
 use super::photon;
 use super::pixel_samples::{MOST_SAMPLES, PixelSamples};
@@ -10,7 +11,7 @@ use super::plan::Plan;
 use super::{Cancel, Rows};
 use crate::geometry::{Hit, Primitive};
 use crate::math::{LANES, Ray, Rgb, Sampler, Stream, sobol};
-use crate::world::{Light, Lobe, Scattering, Surface, SurfacePoint, World};
+use crate::world::{Lobe, Scattering, Surface, SurfacePoint, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3, Vec3};
 use std::ops::Range;
@@ -65,6 +66,8 @@ pub struct VisiblePoint {
     pub facets: u32,
     /// Whether nothing is between it and the camera.
     pub seen_directly: bool,
+    /// How far a Phong lobe that it is seen in scatters the places that are seen there, scene units; 0 if there is none.
+    pub blur: f32,
 }
 
 /// What a path of a pixel met where others of its paths met the same surface.
@@ -182,19 +185,18 @@ struct Branch {
     splits: u32,
     /// Length of the path so far.
     distance: f64,
-    /// How light is counted that a light sends along this branch.
     last: Last,
+    /// The last lobe behind it, if there is any.
+    seen_in: Option<LobeView>,
 }
 
 /// The last event before a branch.
 #[derive(Clone, Copy, Debug)]
 enum Last {
-    /// The camera, mirrors and glass: nothing else finds what emits here.
+    /// The camera, mirrors and glass.
     Specular,
-    /// A Phong lobe at this point with this density of the direction: direct light finds the same.
-    Glossy { from: DVec3, pdf: f64 },
-    /// Mirrors or glass behind a Phong lobe: caustic photons find the same.
-    SpecularAfterGlossy,
+    /// A Phong lobe at this point with this density of the direction; perhaps itself shown in another one.
+    Glossy { from: DVec3, pdf: f64, shown: Option<Shown> },
 }
 
 impl Walk<'_> {
@@ -302,6 +304,7 @@ impl Walk<'_> {
             splits: 0,
             distance: 0.0,
             last: Last::Specular,
+            seen_in: None,
         };
         let mut radiance = self.follow(first, start.hit, pixel, sampler);
         while let Some(branch) = self.branches.pop() {
@@ -320,7 +323,7 @@ impl Walk<'_> {
         branch.throughput *= branch.media.transmittance(self.world, hit.t);
         branch.distance += hit.t;
         let (object, material) = match self.world.surfaces[hit.primitive as usize] {
-            Surface::Light(light) => return emitted(&self.world.lights[light as usize], &branch, &point),
+            Surface::Light(light) => return self.emitted(light as usize, &branch, &point),
             Surface::Object { object, material, .. } => (object, material),
         };
         if branch.bounces >= self.world.max_bounces {
@@ -330,7 +333,7 @@ impl Walk<'_> {
         let lookups = self.world.materials[material as usize].lookups();
         self.batch.counters.texture_lookups += u64::from(lookups);
         let wo = -branch.ray.direction;
-        let vertex = Vertex { point, scattering, n_side: point.n_side(), n_shade, wo };
+        let vertex = Vertex { point, scattering, n_side: point.n_side(), n_shade, wo, seen_in: branch.seen_in };
         let is_first = branch.bounces == 0;
         self.is_textured |= is_first && lookups > 0;
         if is_first && self.plan.gathers() {
@@ -374,6 +377,7 @@ impl Walk<'_> {
             first_facet: 0,
             facets: 0,
             seen_directly: branch.bounces == 0,
+            blur: branch.seen_in.map_or(0.0, |lobe| lobe.blur(branch.distance) as f32),
         }
     }
 
@@ -397,6 +401,23 @@ impl Walk<'_> {
         Clearance { any, standing: standing.unwrap_or(f64::INFINITY) }
     }
 
+    /// Light that the camera gets from a light's own surface.
+    fn emitted(&self, index: usize, branch: &Branch, point: &SurfacePoint) -> Rgb {
+        let light = &self.world.lights[index];
+        let direction = branch.ray.direction;
+        let radiance = branch.throughput * light.emitted(point.n_geom, -direction);
+        match branch.last {
+            // Caustic photons find the same.
+            Last::Specular if branch.seen_in.is_some() => Rgb::ZERO,
+            Last::Specular => radiance,
+            Last::Glossy { from, pdf, shown } => {
+                let pdf_direct = direct::pdf_light(light, from, direction, from.distance(point.position), point.n_geom);
+                let part = direct::camera_part(self.world, self.plan, index, point.position, shown);
+                radiance * (part * pdf / (pdf + pdf_direct)) as f32
+            }
+        }
+    }
+
     /// Continues along mirrors, glass and Phong lobes.
     fn branch_off(&mut self, branch: &Branch, vertex: &Vertex, material: u32, sampler: &mut Sampler) {
         let mirrored = || bsdf::reflect_above(vertex.wo, vertex.n_shade, vertex.n_side);
@@ -412,7 +433,8 @@ impl Walk<'_> {
                 if let Some((wi, weight)) = sampled {
                     let pdf = bsdf::pdf_glossy(&vertex.scattering, vertex.n_shade, vertex.wo, wi);
                     let mut next = branch.specular(vertex, self.world, wi, weight);
-                    next.last = Last::Glossy { from: vertex.point.position, pdf };
+                    next.last = Last::Glossy { from: vertex.point.position, pdf, shown: vertex.shown(wi) };
+                    next.seen_in = self.plan.lobe_light.view(&vertex.point, &vertex.scattering, wi, branch.distance);
                     self.push(next, sampler);
                 }
             }
@@ -477,10 +499,8 @@ impl Branch {
             bounces: self.bounces + 1,
             splits: self.splits,
             distance: self.distance,
-            last: match self.last {
-                Last::Specular => Last::Specular,
-                Last::Glossy { .. } | Last::SpecularAfterGlossy => Last::SpecularAfterGlossy,
-            },
+            last: Last::Specular,
+            seen_in: self.seen_in,
         }
     }
 }
@@ -488,18 +508,4 @@ impl Branch {
 /// Whether a surface sends light to where no mirror would.
 fn scatters(scattering: &Scattering) -> bool {
     scattering.albedo != Rgb::ZERO || matches!(scattering.lobe, Lobe::Phong { .. })
-}
-
-/// Light that the camera gets from a light's own surface.
-fn emitted(light: &Light, branch: &Branch, point: &SurfacePoint) -> Rgb {
-    let radiance = branch.throughput * light.emitted(point.n_geom, -branch.ray.direction);
-    match branch.last {
-        Last::Specular => radiance,
-        Last::SpecularAfterGlossy => Rgb::ZERO,
-        Last::Glossy { from, pdf } => {
-            let direction = branch.ray.direction;
-            let pdf_direct = direct::pdf_light(light, from, direction, from.distance(point.position), point.n_geom);
-            radiance * (pdf / (pdf + pdf_direct)) as f32
-        }
-    }
 }

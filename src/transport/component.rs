@@ -30,7 +30,9 @@ fn of_component(note: PlanNote, component: Component) -> PlanNote {
     let (belongs, reason) = match component {
         Component::Direct => (["direct light", "background"].contains(&what), "only direct light is asked for"),
         Component::Caustics => (what.starts_with("caustics"), "only caustics are asked for"),
-        Component::Interreflection => (what == "interreflection", "only interreflection is asked for"),
+        Component::Interreflection => {
+            (["interreflection", "photons for gloss"].contains(&what), "only interreflection is asked for")
+        }
     };
     if belongs || !note.rendered || what == "textures" {
         return note;

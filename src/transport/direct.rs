@@ -2,6 +2,8 @@
 
 use super::bsdf;
 use super::counters::Counters;
+use super::emission;
+use super::lobe_light::LobeView;
 use super::plan::Plan;
 use crate::geometry::Sphere;
 use crate::math::{Frame, Ray, Rgb, Sampler, warp};
@@ -16,6 +18,29 @@ pub(super) struct Vertex {
     pub(super) n_side: DVec3,
     pub(super) n_shade: DVec3,
     pub(super) wo: DVec3,
+    /// The lobe that shows it, if it is seen in one, perhaps over mirrors and through glass.
+    pub(super) seen_in: Option<LobeView>,
+}
+
+/// A vertex that a lobe shows, as it scatters light from one direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown {
+    lobe: LobeView,
+    position: DVec3,
+    /// Scattering function times cosine.
+    scattered: f64,
+}
+
+impl Vertex {
+    /// How it scatters light from `wi` to the lobe that shows it; `None` where none does.
+    pub(super) fn shown(&self, wi: DVec3) -> Option<Shown> {
+        let scattered = || bsdf::eval(&self.scattering, self.n_shade, self.wo, wi).max_element();
+        self.seen_in.map(|lobe| Shown {
+            lobe,
+            position: self.point.position,
+            scattered: f64::from(scattered()) * wi.dot(self.n_side),
+        })
+    }
 }
 
 /// A point of a light as seen from a surface point.
@@ -33,7 +58,7 @@ struct LightSample {
 /// surface stays finite.
 const NEAREST: f64 = 1e-4;
 
-/// Radiance towards `wo` of light that comes straight from the lights.
+/// Radiance towards `wo` of light that comes straight from the lights, as far as it is the camera's.
 pub(super) fn direct_light(
     world: &World,
     plan: &Plan,
@@ -45,13 +70,21 @@ pub(super) fn direct_light(
     // Drawn only where there is something to choose.
     let u = if plan.light_choice.is_needed() { sampler.next_1d() } else { 0.0 };
     plan.light_choice.choose(vertex, u, |light, factor| {
-        radiance += factor * one_light(world, &world.lights[light], vertex, sampler, counters);
+        radiance += factor * one_light(world, plan, light, vertex, sampler, counters);
     });
     radiance
 }
 
-fn one_light(world: &World, light: &Light, vertex: &Vertex, sampler: &mut Sampler, counters: &mut Counters) -> Rgb {
-    let Some(sample) = sample_light(world, light, vertex.point.position, sampler) else { return Rgb::ZERO };
+fn one_light(
+    world: &World,
+    plan: &Plan,
+    light: usize,
+    vertex: &Vertex,
+    sampler: &mut Sampler,
+    counters: &mut Counters,
+) -> Rgb {
+    let sample = sample_light(world, &world.lights[light], vertex.point.position, sampler);
+    let Some(sample) = sample else { return Rgb::ZERO };
     let (cos_side, cos) = (sample.wi.dot(vertex.n_side), sample.wi.dot(vertex.n_shade));
     if cos_side <= 0.0 || cos <= 0.0 {
         return Rgb::ZERO;
@@ -61,7 +94,8 @@ fn one_light(world: &World, light: &Light, vertex: &Vertex, sampler: &mut Sample
         .pdf
         .map_or(1.0, |pdf| pdf / (pdf + bsdf::pdf_glossy(&vertex.scattering, vertex.n_shade, vertex.wo, sample.wi)));
     let reflected = bsdf::eval_diffuse(&vertex.scattering) + glossy * balance as f32;
-    let radiance = reflected * sample.weight * cos as f32;
+    let part = camera_part(world, plan, light, sample.position, vertex.shown(sample.wi));
+    let radiance = reflected * sample.weight * (part * cos) as f32;
     if radiance == Rgb::ZERO {
         return Rgb::ZERO;
     }
@@ -72,6 +106,12 @@ fn one_light(world: &World, light: &Light, vertex: &Vertex, sampler: &mut Sample
         ..Ray::between(world.leave(&vertex.point, sample.wi), sample.position)
     };
     if world.aggregate.occluded(&shadow_ray) { Rgb::ZERO } else { radiance }
+}
+
+/// The part of light that is the camera's where a vertex scatters what comes straight from a place on a light.
+pub(super) fn camera_part(world: &World, plan: &Plan, light: usize, place: DVec3, shown: Option<Shown>) -> f64 {
+    let Some(Shown { lobe, position, scattered }) = shown else { return 1.0 };
+    plan.lobe_light.camera_part(light, scattered * emission::density(&world.lights[light], place, position), lobe)
 }
 
 fn sample_light(world: &World, light: &Light, from: DVec3, sampler: &mut Sampler) -> Option<LightSample> {

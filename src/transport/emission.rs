@@ -62,6 +62,19 @@ pub(super) fn emit(light: &Light, sampler: &mut Sampler) -> Emission {
     }
 }
 
+/// Density, per area across them, of the paths from a place on a light that [`emit`] sends through a point.
+pub(super) fn density(light: &Light, place: DVec3, point: DVec3) -> f64 {
+    let offset = point - place;
+    let distance_squared = offset.length_squared();
+    let along = |normal: DVec3| normal.dot(offset).max(0.0) / distance_squared.sqrt();
+    let per_steradian = match light {
+        Light::Point { .. } => 0.25 / PI,
+        Light::Sphere { sphere, .. } => along((place - sphere.center) / sphere.radius) / PI,
+        Light::Quad { quad, .. } => along(quad.normal()) / PI,
+    };
+    per_steradian / distance_squared
+}
+
 /// A path that leaves a light in a direction from the guide; `None` where the light does not shine there.
 pub(super) fn emit_guided(light: &Light, guide: &Guide, sampler: &mut Sampler) -> Option<Emission> {
     let Origin { position, normal, strength } = origin(light, sampler);

@@ -164,7 +164,7 @@ impl Gatherer<'_> {
         let mut found = Gathered::default();
         let compares = self.plan.compares_discs(point.pixel, self.iteration);
         // With whether the picture shows what is in the map.
-        let radii: ArrayVec<(MapKind, bool, f64), 3> = MapKind::ALL
+        let radii: ArrayVec<(MapKind, bool, f64), 4> = MapKind::ALL
             .into_iter()
             .filter(|kind| self.is_wanted(*kind, point))
             .map(|kind| (kind, self.shows(kind, point)))
@@ -213,7 +213,12 @@ impl Gatherer<'_> {
 
     /// Whether what is in a map is worth a look from a point.
     fn is_wanted(&self, kind: MapKind, point: &VisiblePoint) -> bool {
-        !self.maps[kind].is_empty() && (kind == MapKind::Caustic || scatters_diffusely(point))
+        !self.maps[kind].is_empty()
+            && match kind {
+                MapKind::Caustic => true,
+                MapKind::Global | MapKind::Focused => scatters_diffusely(point),
+                MapKind::Glossy => is_glossy(point),
+            }
     }
 
     /// Whether the picture shows what is in a map here: not where the photons themselves are added to the film.
@@ -229,8 +234,9 @@ impl Gatherer<'_> {
         let (plan, footprint) = (self.plan, f64::from(point.footprint));
         let unshrunk = match kind {
             MapKind::Caustic => plan.caustic_radius * footprint,
-            MapKind::Global => plan.global_radius_at(footprint, point.clearance),
+            MapKind::Global => plan.radius_in_lobe(plan.global_radius_at(footprint, point.clearance), point.blur),
             MapKind::Focused => plan.focused_radius * footprint,
+            MapKind::Glossy => plan.radius_in_lobe(plan.glossy_radius * footprint, point.blur),
         };
         let is_patch = matches!(self.world.aggregate.primitives()[point.primitive as usize], Primitive::Patch(_));
         let factor = match plan.measured_shrink(kind, point.pixel) {
@@ -242,7 +248,7 @@ impl Gatherer<'_> {
         let radius = self.limited(point, unshrunk * factor.max(1.0)) * factor.min(1.0);
         match kind {
             MapKind::Caustic => plan.limited_caustic_radius(radius, footprint, point.clearance),
-            MapKind::Global | MapKind::Focused => radius,
+            MapKind::Global | MapKind::Focused | MapKind::Glossy => radius,
         }
     }
 
@@ -286,8 +292,8 @@ impl Gatherer<'_> {
         }
     }
 
-    /// The density estimate of reflected radiance. Light in a Phong lobe counts for caustic photons only; the camera's own
-    /// paths find the rest of it.
+    /// The density estimate of reflected radiance. Of light in Phong lobes the camera's own paths find what is neither a caustic
+    /// nor in the map for it.
     #[inline(always)]
     fn estimate<L: Lanes>(
         &self,
@@ -298,12 +304,13 @@ impl Gatherer<'_> {
         view: Option<&VisibilityPolygon>,
         radius: f64,
     ) -> Rgb {
-        let is_glossy = kind == MapKind::Caustic && matches!(point.scattering.lobe, Lobe::Phong { .. });
         let Some(disc) = self.disc(point, view, radius) else { return Rgb::ZERO };
         let map = &self.maps[kind];
         let facets = &self.facets[point.first_facet as usize..][..point.facets as usize];
-        let reflected = if is_glossy {
-            glossy_reflection(l, map, stack, point, &disc)
+        let reflected = if kind == MapKind::Glossy {
+            glossy_reflection(l, map, stack, point, &disc, Rgb::ZERO)
+        } else if kind == MapKind::Caustic && is_glossy(point) {
+            glossy_reflection(l, map, stack, point, &disc, bsdf::eval_diffuse(&point.scattering))
         } else if !facets.is_empty() && disc.view.is_none() && holds_pixel(point, radius) {
             faceted_reflection(l, map, stack, facets, &disc)
         } else {
@@ -381,6 +388,11 @@ fn scatters_diffusely(point: &VisiblePoint) -> bool {
     point.scattering.albedo != Rgb::ZERO || point.mean_albedo != Rgb::ZERO
 }
 
+/// Whether it has a Phong lobe.
+fn is_glossy(point: &VisiblePoint) -> bool {
+    matches!(point.scattering.lobe, Lobe::Phong { .. })
+}
+
 /// Where photons are gathered for a point, and how they count.
 struct Disc<'v> {
     query: Query,
@@ -416,17 +428,22 @@ fn faceted_reflection<L: Lanes>(l: L, map: &PhotonMap, stack: &mut Stack, facets
     sum * std::f32::consts::FRAC_1_PI / (facets.len() as f32 * disc.integral as f32)
 }
 
-/// The density estimate of what a point with a Phong lobe reflects.
+/// The density estimate of what a point reflects in a Phong lobe and, with this scattering function, in all directions.
 #[inline(always)]
-fn glossy_reflection<L: Lanes>(l: L, map: &PhotonMap, stack: &mut Stack, point: &VisiblePoint, disc: &Disc) -> Rgb {
+fn glossy_reflection<L: Lanes>(
+    l: L,
+    map: &PhotonMap,
+    stack: &mut Stack,
+    point: &VisiblePoint,
+    disc: &Disc,
+    diffuse: Rgb,
+) -> Rgb {
     let Disc { query, tilt, view, integral } = disc;
-    let diffuse = bsdf::eval_diffuse(&point.scattering);
-    let (n_shade, wo) = (point.n_shade.as_dvec3(), point.wo.as_dvec3());
+    let Some(lobe) = bsdf::GlossyLobe::new(&point.scattering, point.n_shade, point.wo) else { return Rgb::ZERO };
     let mut sum = Rgb::ZERO;
     map.for_each(l, query, tilt, stack, |weight, photon| {
         if is_in_view(point, *view, &photon) {
-            let lobe = bsdf::eval_glossy(&point.scattering, n_shade, wo, photon.wi.as_dvec3());
-            sum += weight * photon.flux * (diffuse + lobe);
+            sum += weight * photon.flux * (diffuse + lobe.eval(photon.wi));
         }
     });
     sum / *integral as f32

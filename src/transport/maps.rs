@@ -11,6 +11,8 @@ pub struct Maps {
     pub global: PhotonMap,
     /// Photons that mirrors or glass sent on after they were scattered.
     pub focused: PhotonMap,
+    /// Photons that were scattered once, with what Phong lobes take from them: see [`LobeLight`](super::LobeLight).
+    pub glossy: PhotonMap,
 }
 
 impl std::ops::Index<MapKind> for Maps {
@@ -21,6 +23,7 @@ impl std::ops::Index<MapKind> for Maps {
             MapKind::Caustic => &self.caustic,
             MapKind::Global => &self.global,
             MapKind::Focused => &self.focused,
+            MapKind::Glossy => &self.glossy,
         }
     }
 }
@@ -34,16 +37,18 @@ pub enum MapKind {
     Global,
     /// Of interreflection that was focused.
     Focused,
+    /// Of interreflection in Phong lobes.
+    Glossy,
 }
 
 impl MapKind {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Caustic, Self::Global, Self::Focused];
+    pub const ALL: [Self; 4] = [Self::Caustic, Self::Global, Self::Focused, Self::Glossy];
 }
 
 /// Something for each of the [`Maps`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PerMap<T>([T; 3]);
+pub struct PerMap<T>([T; 4]);
 
 impl<T> PerMap<T> {
     /// What the function says of each.

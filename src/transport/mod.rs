@@ -10,6 +10,10 @@
 //! | visible caustics | `L S+ D E` | [`caustic_photon_pass`], added to the film |
 //! | caustics in mirrors and glass | `L S+ D S+ E` | [`caustic_photon_pass`], density estimate |
 //! | interreflection | `L .. D .. D S* E` | [`global_photon_pass`], density estimate |
+//! | light in gloss | `L .. D S* G S* E` | [`camera_pass`]; as far as [`LobeLight`] says by photons, density estimate |
+//!
+//! A Phong lobe (G) shows what the camera sees along a path that goes on from it at random; what such a path finds belongs to the
+//! component that it would if the camera saw it without the lobe, and what photons bring to interreflection.
 //!
 //! A pass is a function of the world, the plan, the seed and the number of the iteration; it returns what it found.
 
@@ -26,6 +30,7 @@ mod gather;
 mod guide;
 mod kernel;
 mod light_choice;
+mod lobe_light;
 mod maps;
 mod measured;
 mod medium;
@@ -50,6 +55,7 @@ pub use counters::Counters;
 pub use gather::{Gathered, gather};
 pub use guide::Guide;
 pub use light_choice::LightChoice;
+pub use lobe_light::LobeLight;
 pub use maps::{MapKind, Maps, PerMap};
 pub use measured::Measured;
 pub use photon::Photon;

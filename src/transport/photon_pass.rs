@@ -4,6 +4,7 @@
 use super::bsdf;
 use super::counters::Counters;
 use super::emission::{self, Emission};
+use super::lobe_light::LobeLight;
 use super::medium::Media;
 use super::photon::Photon;
 use super::plan::Plan;
@@ -27,6 +28,8 @@ pub struct GlobalBatch {
     pub photons: Vec<Photon>,
     /// Photons that mirrors or glass sent on after they were scattered: these form caustics of indirect light.
     pub focused: Vec<Photon>,
+    /// Photons at Phong lobes, as far as what these take from them is not the camera's: see [`LobeLight`].
+    pub glossy: Vec<Photon>,
     /// What was done.
     pub counters: Counters,
 }
@@ -43,7 +46,7 @@ pub fn global_photon_pass(
     let blocks: Vec<GlobalBatch> = blocks::of_photons(plan.global_paths.iter().map(paths))
         .into_par_iter()
         .map(|block| {
-            let mut walk = Walk { world, batch: GlobalBatch::default() };
+            let mut walk = Walk { world, lobe_light: Some(&plan.lobe_light), batch: GlobalBatch::default() };
             let paths = paths(&plan.global_paths[block.light]);
             let count = paths.end - paths.start;
             for index in block.paths.clone() {
@@ -57,13 +60,14 @@ pub fn global_photon_pass(
     Some(GlobalBatch {
         photons: blocks::join(&blocks, |block| &block.photons),
         focused: blocks::join(&blocks, |block| &block.focused),
+        glossy: blocks::join(&blocks, |block| &block.glossy),
         counters: blocks.iter().map(|block| block.counters).sum(),
     })
 }
 
 /// A little before where one path of a light arrives at surfaces that scatter it, from the first one on.
 pub(super) fn one_path(world: &World, light: usize, mut sampler: Sampler) -> Vec<DVec3> {
-    let mut walk = Walk { world, batch: GlobalBatch::default() };
+    let mut walk = Walk { world, lobe_light: None, batch: GlobalBatch::default() };
     // As if it had been scattered before: then photons tell of the first arrival, too.
     let flight = Flight { was_scattered: true, ..walk.start(light, 1, &mut sampler) };
     walk.follow(flight, &mut sampler);
@@ -75,11 +79,14 @@ pub(super) fn one_path(world: &World, light: usize, mut sampler: Sampler) -> Vec
 
 struct Walk<'a> {
     world: &'a World,
+    lobe_light: Option<&'a LobeLight>,
     batch: GlobalBatch,
 }
 
 /// A photon in flight.
 struct Flight {
+    light: usize,
+    origin: DVec3,
     ray: Ray,
     flux: Rgb,
     media: Media,
@@ -89,6 +96,9 @@ struct Flight {
     was_scattered: bool,
     /// Whether the last of them mirrored or refracted it.
     is_focused: bool,
+    /// If it was scattered at the first surface and only there: the density, per area there and steradian, that
+    /// [`LobeLight::camera_part`] asks for.
+    scattered_first: Option<f64>,
 }
 
 impl Walk<'_> {
@@ -98,12 +108,15 @@ impl Walk<'_> {
         self.batch.counters.global_paths += 1;
         let ray = Ray { t_min: 1e-9 * self.world.radius, ..Ray::new(origin, direction) };
         Flight {
+            light,
+            origin,
             ray,
             flux: flux / path_count as f32,
             media: Media::default(),
             bounces: 0,
             was_scattered: false,
             is_focused: false,
+            scattered_first: None,
         }
     }
 
@@ -126,13 +139,46 @@ impl Walk<'_> {
             photons.push(Photon::arrived(self.world, &point, object, wi, flight.flux, flight.bounces));
             self.batch.counters.photons_stored += 1;
         }
+        if let Some(density) = flight.scattered_first {
+            self.leave_at_lobe(flight, density, &point, object, &scattering);
+        }
         if flight.bounces + 1 >= self.world.max_bounces {
             return None;
         }
         let direction = scatter(self.world, flight, &point, &scattering, material, n_shade, sampler)?;
+        flight.scattered_first = match (flight.bounces, flight.is_focused) {
+            (0, false) if self.lobe_light.is_some_and(LobeLight::is_divided) => {
+                let light = &self.world.lights[flight.light];
+                let scattered = f64::from(bsdf::eval(&scattering, n_shade, direction, wi).max_element());
+                Some(scattered * wi.dot(point.n_side()) * emission::density(light, flight.origin, point.position))
+            }
+            (1.., true) => flight.scattered_first,
+            _ => None,
+        };
         flight.bounces += 1;
         flight.ray = Ray::new(self.world.leave(&point, direction), direction);
         flight.flux.is_finite().then_some(())
+    }
+
+    /// Where there is a Phong lobe, leaves what it takes from a photon that is not the camera's.
+    fn leave_at_lobe(
+        &mut self,
+        flight: &Flight,
+        density: f64,
+        point: &SurfacePoint,
+        object: u32,
+        scattering: &Scattering,
+    ) -> Option<()> {
+        let wi = -flight.ray.direction;
+        let lobe_light = self.lobe_light?;
+        let lobe = lobe_light.view(point, scattering, wi, 0.0)?;
+        let part = 1.0 - lobe_light.camera_part(flight.light, density, lobe);
+        if part > 0.0 {
+            let flux = part as f32 * flight.flux;
+            self.batch.glossy.push(Photon::arrived(self.world, point, object, wi, flux, flight.bounces));
+            self.batch.counters.photons_stored += 1;
+        }
+        Some(())
     }
 }
 

@@ -8,6 +8,7 @@ mod closed_forms;
 mod components;
 mod engine;
 mod glass;
+mod gloss;
 mod indirect_shadow;
 mod passes;
 mod plan;
