@@ -51,7 +51,7 @@ pub(super) struct RenderSettings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Part {
-    /// Lights themselves, and what they light with nothing in between
+    /// Lights themselves, what they light with nothing in between, and most of what gloss reflects of it
     Direct,
     /// What mirrors and glass throw onto surfaces
     Caustics,

@@ -71,27 +71,21 @@ pub(super) struct GlossyLobe {
     peak: Rgb,
     exponent: f32,
     mirrored: Vec3,
-    /// Cosine of the angle to the mirror direction from which on the value matters.
-    least_cos: f32,
 }
 
 impl GlossyLobe {
-    /// Less than this part of the value in the middle does not matter: of all light it is a smaller part still.
-    const LEAST_PART: f64 = 1e-4;
-
     /// `None` where there is no lobe.
     pub(super) fn new(scattering: &Scattering, n_shade: Vec3, wo: Vec3) -> Option<Self> {
         let Lobe::Phong { specular, exponent } = scattering.lobe else { return None };
         let mirrored = reflect(wo.as_dvec3(), n_shade.as_dvec3()).as_vec3();
-        let least_cos = Self::LEAST_PART.powf(1.0 / exponent) as f32;
         let peak = specular * ((exponent + 2.0) / TAU) as f32;
-        Some(Self { peak, exponent: exponent as f32, mirrored, least_cos })
+        Some(Self { peak, exponent: exponent as f32, mirrored })
     }
 
     /// As [`eval_glossy`].
     pub(super) fn eval(&self, wi: Vec3) -> Rgb {
         let cos = self.mirrored.dot(wi).min(1.0);
-        if cos > self.least_cos { self.peak * cos.powf(self.exponent) } else { Rgb::ZERO }
+        if cos > 0.0 { self.peak * cos.powf(self.exponent) } else { Rgb::ZERO }
     }
 }
 

@@ -434,7 +434,13 @@ impl Walk<'_> {
                     let pdf = bsdf::pdf_glossy(&vertex.scattering, vertex.n_shade, vertex.wo, wi);
                     let mut next = branch.specular(vertex, self.world, wi, weight);
                     next.last = Last::Glossy { from: vertex.point.position, pdf, shown: vertex.shown(wi) };
-                    next.seen_in = self.plan.lobe_light.view(&vertex.point, &vertex.scattering, wi, branch.distance);
+                    next.seen_in = self.plan.lobe_light.view(
+                        &vertex.point,
+                        &self.world.materials[material as usize],
+                        &vertex.scattering,
+                        wi,
+                        branch.distance,
+                    );
                     self.push(next, sampler);
                 }
             }

@@ -5,7 +5,8 @@ use super::plan::{Plan, PlanNote};
 /// Part of a picture: the parts' sum is the picture. The table in [`transport`](super) tells which paths belong to which.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Component {
-    /// Emission, the background and direct light: all that paths from the camera find.
+    /// Emission, the background and direct light: all that paths from the camera find, and so most of what Phong lobes show,
+    /// but for what [`LobeLight`](super::LobeLight) leaves to interreflection: more of it the more photons there are a pixel.
     Direct,
     /// Caustics, those in mirrors and glass too.
     Caustics,

@@ -140,7 +140,7 @@ impl Walk<'_> {
             self.batch.counters.photons_stored += 1;
         }
         if let Some(density) = flight.scattered_first {
-            self.leave_at_lobe(flight, density, &point, object, &scattering);
+            self.leave_at_lobe(flight, density, &point, (object, material), &scattering);
         }
         if flight.bounces + 1 >= self.world.max_bounces {
             return None;
@@ -166,12 +166,12 @@ impl Walk<'_> {
         flight: &Flight,
         density: f64,
         point: &SurfacePoint,
-        object: u32,
+        (object, material): (u32, u32),
         scattering: &Scattering,
     ) -> Option<()> {
         let wi = -flight.ray.direction;
         let lobe_light = self.lobe_light?;
-        let lobe = lobe_light.view(point, scattering, wi, 0.0)?;
+        let lobe = lobe_light.view(point, &self.world.materials[material as usize], scattering, wi, 0.0)?;
         let part = 1.0 - lobe_light.camera_part(flight.light, density, lobe);
         if part > 0.0 {
             let flux = part as f32 * flight.flux;

@@ -453,13 +453,17 @@ fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
 /// Paths of photons that bring light to Phong lobes: those for interreflection, where there are any lobes.
 fn plan_gloss(world: &World, global_paths: &[u64], notes: &mut Notes) -> Vec<u64> {
     const WHAT: &str = "photons for gloss";
-    let glossy = (0..world.surfaces.len() as u32).filter(|&p| world.is_glossy(p)).count();
+    let glossy = (0..world.surfaces.len() as u32).filter(|&p| world.may_divide_lobes(p)).count();
     if glossy == 0 || global_paths.is_empty() {
-        let reason = if glossy == 0 { "no surface has a Phong lobe" } else { "there is no interreflection" };
+        let reason = if glossy == 0 {
+            "no surface has a wide Phong lobe without textures"
+        } else {
+            "there is no interreflection"
+        };
         notes.skip(WHAT, reason);
         return Vec::new();
     }
-    notes.render(WHAT, format!("{glossy} surfaces have Phong lobes; photons bring them light of bright spots"));
+    notes.render(WHAT, format!("{glossy} surfaces have wide Phong lobes; photons bring them light of bright spots"));
     global_paths.to_vec()
 }
 
@@ -511,7 +515,7 @@ fn shows_at(world: &World, primitive: u32) -> bool {
 }
 
 impl World {
-    fn material_of(&self, primitive: u32) -> Option<&crate::world::Material> {
+    pub(super) fn material_of(&self, primitive: u32) -> Option<&crate::world::Material> {
         match self.surfaces[primitive as usize] {
             Surface::Object { material, .. } => Some(&self.materials[material as usize]),
             Surface::Light(_) => None,
