@@ -193,7 +193,7 @@ struct Branch {
 /// The last event before a branch.
 #[derive(Clone, Copy, Debug)]
 enum Last {
-    /// The camera, mirrors and glass.
+    /// The camera, mirrors and glass: nothing else finds what emits here, unless a lobe is behind them.
     Specular,
     /// A Phong lobe at this point with this density of the direction; perhaps itself shown in another one.
     Glossy { from: DVec3, pdf: f64, shown: Option<Shown> },

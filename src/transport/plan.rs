@@ -173,7 +173,7 @@ impl Plan {
             least_global_radius: DRAFT_RADIUS * global_wider,
             least_standing_radius: DRAFT_RADIUS * global_wider,
             global_radius: DRAFT_RADIUS * global_wider,
-            focused_radius: 0.75 * DRAFT_RADIUS * global_wider,
+            focused_radius: glossy_radius,
             glossy_radius,
             largest_radius: 0.2,
             is_draft: true,
@@ -450,7 +450,7 @@ fn plan_interreflection(world: &World, notes: &mut Notes) -> Vec<u64> {
     share(weights(world, notes), total)
 }
 
-/// Paths of photons that bring light to Phong lobes: those for interreflection, where there are any lobes.
+/// Paths of photons that bring light to Phong lobes: those for interreflection, where there are lobes that may be divided.
 fn plan_gloss(world: &World, global_paths: &[u64], notes: &mut Notes) -> Vec<u64> {
     const WHAT: &str = "photons for gloss";
     let glossy = (0..world.surfaces.len() as u32).filter(|&p| world.may_divide_lobes(p)).count();
