@@ -91,9 +91,10 @@ fn resolution() {
     }
 }
 
-/// Copies of the teapot side by side, all together as large as one.
+/// The first patch of the teapot alone; then copies of the teapot side by side, all together as large as one.
 fn patches() {
     head("patches");
+    row(1, &cost(&one_patch(), 3));
     for side in [1, 6, 32] {
         let mut file = sized(SceneFile::built_in("teapot").expect("there is such a scene"), 256);
         let mut count = 0;
@@ -113,6 +114,17 @@ fn patches() {
         }
         row(count, &cost(&file, 3));
     }
+}
+
+fn one_patch() -> SceneFile {
+    let mut file = sized(SceneFile::built_in("teapot").expect("there is such a scene"), 256);
+    for object in &mut file.scene.objects {
+        if let Shape::Bezier(bezier) = &mut object.shape {
+            bezier.patches = Arc::new(vec![bezier.patches[0]]);
+            bezier.file = None;
+        }
+    }
+    file
 }
 
 /// The lamp divided among many in the upper half of the room.

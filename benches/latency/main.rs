@@ -1,8 +1,12 @@
-//! How long it takes from an edit to a picture, while a control point is dragged and after it was let go.
+//! How long it takes from an edit to a picture, while a control point is dragged and after it was let go, and how well
+//! those pictures show its caustic.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
 #![allow(clippy::print_stdout, reason = "the table is what it is for")]
 
+mod caustic;
+
+use caustic::Caustic;
 use crossbeam_channel::{Receiver, bounded};
 use patchlight::engine::{Command, Engine, EngineSettings, Frame};
 use patchlight::scene::{SceneFile, Shape};
@@ -13,6 +17,10 @@ const SIDE: u32 = 512;
 /// Moves of a drag; the first ones, by which drafts find their size, do not count.
 const MOVES: usize = 120;
 const MOVES_TO_SETTLE: usize = 20;
+
+/// How far the control point is lifted in the end, and at each move before it less, or after it more.
+const LIFT: f64 = 0.2;
+const MOVE: f64 = 0.001;
 
 /// The report scene with an inner control point of its sheet lifted by this much.
 fn lifted(by: f64) -> Arc<SceneFile> {
@@ -56,35 +64,45 @@ fn main() {
     let wake = move || wake.try_send(()).unwrap_or_default();
     let engine = Engine::start(EngineSettings { threads: None, seed: 1 }, wake).expect("there are threads");
     let mut drafts = Vec::new();
-    let mut size = 0;
+    let mut newest = None;
     for k in 0..MOVES {
-        let scene = lifted(0.001 * k as f64);
+        let scene = lifted(LIFT - MOVE * (MOVES - 1 - k) as f64);
         let start = Instant::now();
         engine.send(Command::Show(scene));
         let (time, frame) = wait(&engine, &woken, start, |_| true);
         if k >= MOVES_TO_SETTLE {
             drafts.push(time);
-            size = frame.image.width;
         }
+        newest = Some(frame);
         // So often a mouse reports that it moves.
         std::thread::sleep(Duration::from_millis(8));
     }
     drafts.sort();
+    let draft = newest.expect("there are moves").image.clone();
+    let size = draft.width;
     println!("| report scene, {SIDE} x {SIDE} | |\n|---|--:|");
     println!("| first draft ({size} pixels wide), median | {:.0} ms |", milliseconds(&drafts, 0.5));
     println!("| first draft, 95th percentile | {:.0} ms |", milliseconds(&drafts, 0.95));
     // The first picture with all pixels, and the first one that goes on to converge.
-    let (mut wholes, mut iterations): (Vec<Duration>, Vec<Duration>) = (0..5)
-        .map(|k| {
-            let scene = lifted(0.2 + 0.001 * f64::from(k));
-            let start = Instant::now();
-            engine.send(Command::Show(scene));
-            let whole = wait(&engine, &woken, start, |frame| frame.image.width == SIDE).0;
-            (whole, wait(&engine, &woken, start, |frame| !frame.draft).0)
-        })
-        .unzip();
+    let (mut wholes, mut iterations, mut newest) = (Vec::new(), Vec::new(), None);
+    for k in (0..5).rev() {
+        let scene = lifted(LIFT + MOVE * f64::from(k));
+        let start = Instant::now();
+        engine.send(Command::Show(scene));
+        let (time, frame) = wait(&engine, &woken, start, |frame| frame.image.width == SIDE);
+        wholes.push(time);
+        newest = Some(frame);
+        iterations.push(wait(&engine, &woken, start, |frame| !frame.draft).0);
+    }
+    let whole = newest.expect("there are pictures").image.clone();
     wholes.sort();
     iterations.sort();
     println!("| first whole picture, median | {:.0} ms |", milliseconds(&wholes, 0.5));
     println!("| first iteration, median | {:.0} ms |", milliseconds(&iterations, 0.5));
+    // Its threads rest while the converged picture is rendered.
+    drop(engine);
+    let caustic = Caustic::render(&lifted(LIFT));
+    println!("| caustic in the first draft, correlation with the converged one | {:.3} |", caustic.likeness(&draft));
+    println!("| caustic in the first whole picture | {:.3} |", caustic.likeness(&whole));
+    println!("| the converged picture without its caustics, there | {:.3} |", caustic.likeness_without());
 }

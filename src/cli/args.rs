@@ -107,6 +107,9 @@ pub(super) struct BenchArguments {
     /// The true picture
     #[arg(long, value_name = "REF.exr")]
     pub(super) reference: Option<PathBuf>,
+    /// Another true picture with other noise: errors are then measured without the noise of either
+    #[arg(long, value_name = "REF.exr", requires = "reference")]
+    pub(super) second_reference: Option<PathBuf>,
     /// Count only pixels that are bright in this picture, and the others apart
     #[arg(long, value_name = "MASK.png")]
     pub(super) mask: Option<PathBuf>,
@@ -129,10 +132,11 @@ pub(super) struct BenchArguments {
     #[arg(long, value_name = "OUT.png")]
     pub(super) plot: Option<PathBuf>,
     /// Measure all the scenes that this file lists, instead of SCENE: for each a [[run]] with name, scene, seconds and
-    /// perhaps seeds, only, mask, and reference or reference_seconds
-    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["scene", "reference", "mask", "seconds", "seeds", "only", "csv", "plot"])]
+    /// perhaps seeds, only, mask, others (a relMSE to compare with), and reference, perhaps with second_reference, or
+    /// reference_seconds
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["scene", "reference", "second_reference", "mask", "seconds", "seeds", "only", "csv", "plot"])]
     pub(super) suite: Option<PathBuf>,
-    /// Where the tables and plots of a suite go
+    /// Where the tables and plots of a suite go: FILE.md, and files that are called like the runs
     #[arg(short, long, value_name = "FOLDER")]
     pub(super) output: Option<PathBuf>,
 }

@@ -30,20 +30,33 @@ pub struct Errors {
 ///
 /// Fails when the sizes differ. Values that are not finite make the errors so.
 pub fn compare(image: &LinearImage, reference: &LinearImage, mask: Option<&Mask>) -> Result<Errors, ImageError> {
-    let expected = (image.width, image.height);
-    let same = |what, found| if found == expected { Ok(()) } else { Err(ImageError::Size { what, found, expected }) };
-    same("reference", (reference.width, reference.height))?;
-    mask.map_or(Ok(()), |mask| same("mask", (mask.width, mask.height)))?;
-    let counts = |k: usize| mask.is_none_or(|mask| mask.inside[k]);
-    let pairs = image.pixels.iter().zip(&reference.pixels).enumerate().filter(|(k, _)| counts(*k));
-    Ok(errors(pairs.map(|(_, (x, r))| (*x, *r))))
+    compare_with_both(image, reference, reference, mask)
 }
 
-fn errors(pairs: impl Iterator<Item = (Rgb, Rgb)>) -> Errors {
+/// The same without the references' noise: instead of squares of differences from one reference it takes the products of the
+/// differences from two. Their mean holds no noise of either if they have none in common. Means and weights are those of the
+/// first one; where the errors are as good as nothing, noise may make their squares negative, and the RMSE is then 0.
+pub fn compare_with_both(
+    image: &LinearImage,
+    first: &LinearImage,
+    second: &LinearImage,
+    mask: Option<&Mask>,
+) -> Result<Errors, ImageError> {
+    let expected = (image.width, image.height);
+    let same = |what, found| if found == expected { Ok(()) } else { Err(ImageError::Size { what, found, expected }) };
+    same("reference", (first.width, first.height))?;
+    same("second reference", (second.width, second.height))?;
+    mask.map_or(Ok(()), |mask| same("mask", (mask.width, mask.height)))?;
+    let counts = |k: &usize| mask.is_none_or(|mask| mask.inside[*k]);
+    let pixels = (0..image.pixels.len()).filter(counts);
+    Ok(errors(pixels.map(|k| [image.pixels[k], first.pixels[k], second.pixels[k]])))
+}
+
+fn errors(pixels: impl Iterator<Item = [Rgb; 3]>) -> Errors {
     let (mut squares, mut relative, mut sums) = (Vec::new(), Vec::new(), [[0.0; 3]; 2]);
-    for (x, r) in pairs {
-        let (x, r) = (x.to_array().map(f64::from), r.to_array().map(f64::from));
-        let square = |c: usize| (x[c] - r[c]).powi(2);
+    for pixel in pixels {
+        let [x, r, second] = pixel.map(|rgb| rgb.to_array().map(f64::from));
+        let square = |c: usize| (x[c] - r[c]) * (x[c] - second[c]);
         squares.push((0..3).map(square).sum::<f64>() / 3.0);
         relative.push((0..3).map(|c| square(c) / (r[c] * r[c] + RELATIVE_FLOOR)).sum::<f64>() / 3.0);
         for c in 0..3 {
@@ -54,9 +67,9 @@ fn errors(pairs: impl Iterator<Item = (Rgb, Rgb)>) -> Errors {
     let count = squares.len() as f64;
     Errors {
         pixels: squares.len(),
-        rmse: mean(&squares).sqrt(),
+        rmse: root(mean(&squares)),
         rel_mse: mean(&relative),
-        rmse_trimmed: trimmed_mean(&mut squares).sqrt(),
+        rmse_trimmed: root(trimmed_mean(&mut squares)),
         rel_mse_trimmed: trimmed_mean(&mut relative),
         mean_ratio: std::array::from_fn(|c| sums[0][c] / sums[1][c]),
         reference_mean: sums[1].iter().sum::<f64>() / (3.0 * count),
@@ -66,6 +79,11 @@ fn errors(pairs: impl Iterator<Item = (Rgb, Rgb)>) -> Errors {
 /// The mean; not a number where there is none.
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Of a negative number 0; of what is not a number the same.
+fn root(square: f64) -> f64 {
+    if square < 0.0 { 0.0 } else { square.sqrt() }
 }
 
 fn trimmed_mean(values: &mut [f64]) -> f64 {
@@ -95,6 +113,22 @@ mod tests {
     }
 
     #[test]
+    fn two_references_take_their_noise_off() {
+        let x = image(vec![Rgb::splat(3.0); 4]);
+        // The truth is 1; the second reference has the same noise where the first one is too bright as where it is too dark.
+        let [first, second] = [[1.5, 1.5, 0.5, 0.5], [1.1, 0.9, 1.1, 0.9]].map(|r| image(r.map(Rgb::splat).to_vec()));
+        let errors = compare_with_both(&x, &first, &second, None).unwrap();
+        assert!((errors.rmse - 2.0).abs() < 1e-6, "{errors:?}");
+        assert!(
+            (errors.rel_mse - (1.5 / 2.26 + 2.5 / 0.26)).abs() < 1e-6,
+            "the weights are the first one's: {errors:?}"
+        );
+        assert_eq!(errors.reference_mean, 1.0);
+        let between = compare_with_both(&image(vec![Rgb::splat(0.7); 4]), &image(vec![Rgb::splat(0.6); 4]), &x, None);
+        assert_eq!(between.unwrap().rmse, 0.0, "no root of what is negative");
+    }
+
+    #[test]
     fn one_pixel_in_a_thousand_is_trimmed() {
         let mut pixels = vec![Rgb::ZERO; 2000];
         let reference = image(pixels.clone());
@@ -109,5 +143,8 @@ mod tests {
     fn sizes_must_agree() {
         let message = compare(&LinearImage::black(3, 2), &LinearImage::black(2, 3), None).unwrap_err().to_string();
         assert_eq!(message, "the reference has 2 x 3 pixels, the image 3 x 2");
+        let [wide, high] = [LinearImage::black(3, 2), LinearImage::black(2, 3)];
+        let message = compare_with_both(&wide, &wide, &high, None).unwrap_err().to_string();
+        assert_eq!(message, "the second reference has 2 x 3 pixels, the image 3 x 2");
     }
 }

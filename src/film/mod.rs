@@ -14,6 +14,6 @@ pub use self::image::LinearImage;
 pub use error::ImageError;
 #[cfg(feature = "flip")]
 pub use flip::{flip, mean_inside};
-pub use metrics::{Errors, compare};
+pub use metrics::{Errors, compare, compare_with_both};
 pub use png::{Mask, write_png};
 pub use tone::ToneMap;

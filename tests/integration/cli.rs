@@ -333,7 +333,9 @@ seeds = 2
 name = "given"
 scene = "ball.toml"
 reference = "truth.exr"
+second_reference = "truth.exr"
 mask = "mask.png"
+others = 1e-3
 seconds = [0.1]
 "#;
 
@@ -350,16 +352,17 @@ fn a_suite_measures_all_its_scenes() {
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(stdout(&output).contains("rendering a reference for 0.3 s\n"), "{}", stdout(&output));
     let out = elsewhere.join("out/put");
-    assert_eq!(names(&out), ["given.csv", "own.csv", "own.png", "table.md"], "one mark makes no curve");
+    assert_eq!(names(&out), ["given.csv", "own.csv", "own.png", "suite.md"], "one mark makes no curve");
     let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
     assert_eq!(column(&read("own.csv"), "seed"), ["0", "0", "0", "1", "1", "1"]);
     for rmse in column(&read("own.csv"), "rmse") {
         let rmse: f64 = rmse.parse().unwrap();
         assert!(rmse > 0.0 && rmse < 0.1, "the reference has another noise: {}", read("own.csv"));
     }
-    let table = read("table.md");
+    let table = read("suite.md");
     let marks: Vec<_> = table.lines().filter_map(|line| line.split('|').nth(2)).map(str::trim).collect();
     assert_eq!(marks, ["mark", "--:", "0.05", "0.1", "0.2", "0.1"], "{table}");
+    assert!(table.contains("| relMSE of others | others over ours |"), "{table}");
 }
 
 #[test]
@@ -368,7 +371,7 @@ fn suite_mistakes_end_with_2_before_anything_is_rendered() {
     let suite = SUITE.replace("truth.exr", "ball.toml");
     for (text, parts) in [
         (suite.clone(), &["suite.toml: run \"given\": ", "mask.png: cannot be read"][..]),
-        (suite.replace("mask = ", "maks = "), &["suite.toml: ", "line 13", "unknown field `maks`", "`mask`"]),
+        (suite.replace("mask = ", "maks = "), &["suite.toml: ", "line 14", "unknown field `maks`", "`mask`"]),
         (suite.replace("seeds = 2", "seeds = \"2\""), &["suite.toml: ", "line 7", "invalid type: string \"2\""]),
         (suite.replace("\"ball.toml\"", "\"no.toml\""), &["suite.toml: run \"own\": no.toml: cannot be read"]),
         (suite.replace("\"ball.toml\"", "\"tepot\""), &["run \"own\": ", "did you mean \"teapot\"?"]),
@@ -381,14 +384,17 @@ fn suite_mistakes_end_with_2_before_anything_is_rendered() {
 }
 
 #[test]
-fn the_suite_of_the_project_is_valid() {
+fn the_suites_of_the_project_are_valid() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let dir = folder();
     fs::write(dir.path().join("taken"), "").unwrap();
     let taken = dir.path().join("taken");
     // All files are read before the folder is made, which fails here and ends it before the rendering.
-    let run = ["bench", "--suite", "benches/suite/suite.toml", "--output", taken.to_str().unwrap()];
-    fails(&patchlight(root, &run), 1, &["taken: the folder cannot be made"]);
+    for suite in ["suite", "references", "others"] {
+        let file = format!("benches/suite/{suite}.toml");
+        let run = ["bench", "--suite", &file, "--output", taken.to_str().unwrap()];
+        fails(&patchlight(root, &run), 1, &["taken: the folder cannot be made"]);
+    }
 }
 
 #[test]

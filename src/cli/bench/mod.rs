@@ -45,8 +45,9 @@ fn bench_scene(scene: &Path, reference: &Path, arguments: &BenchArguments) -> Re
     arguments.plot.as_deref().map_or(Ok(()), needs_png)?;
     let file = SceneFile::find(scene)?;
     let reference = read_exr(reference)?;
+    let second = arguments.second_reference.as_deref().map(read_exr).transpose()?;
     let mask = arguments.mask.as_deref().map(Mask::read).transpose()?;
-    let trial = Trial::new(file, Truth::new(reference, mask)?, &arguments.seconds, arguments.seeds)
+    let trial = Trial::new(file, Truth::new(reference, second, mask)?, &arguments.seconds, arguments.seeds)
         .only(arguments.only.map(Component::from));
     let rows = pool(arguments.threads)?.install(|| trial.measure())?;
     if let Some(path) = &arguments.csv {

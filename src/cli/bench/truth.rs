@@ -1,22 +1,28 @@
-use crate::film::{Errors, ImageError, LinearImage, Mask, compare};
+use crate::film::{Errors, ImageError, LinearImage, Mask, compare, compare_with_both};
 use crate::scene::Film;
 
 /// What pictures are compared with.
 pub(super) struct Truth {
     reference: LinearImage,
+    /// Another one, by which errors inside the mask are measured without the references' noise.
+    second: Option<LinearImage>,
     /// The pixels that count, and the others.
     masks: Option<(Mask, Mask)>,
 }
 
 impl Truth {
-    /// Fails when the mask does not fit the reference: before the rendering rather than after it.
-    pub(super) fn new(reference: LinearImage, mask: Option<Mask>) -> Result<Self, ImageError> {
-        compare(&reference, &reference, mask.as_ref())?;
+    /// Fails when the mask or the second reference does not fit the reference: before the rendering rather than after it.
+    pub(super) fn new(
+        reference: LinearImage,
+        second: Option<LinearImage>,
+        mask: Option<Mask>,
+    ) -> Result<Self, ImageError> {
+        compare_with_both(&reference, &reference, second.as_ref().unwrap_or(&reference), mask.as_ref())?;
         let masks = mask.map(|mask| {
             let others = mask.inverted();
             (mask, others)
         });
-        Ok(Self { reference, masks })
+        Ok(Self { reference, second, masks })
     }
 
     /// Pixels in a row, and rows.
@@ -31,10 +37,11 @@ impl Truth {
 
     /// The errors of the pixels that count, and of the others where there is a mask.
     pub(super) fn errors(&self, image: &LinearImage) -> Result<(Errors, Option<Errors>), ImageError> {
-        let errors = |mask| compare(image, &self.reference, mask);
+        let second = self.second.as_ref().unwrap_or(&self.reference);
+        let errors = |mask| compare_with_both(image, &self.reference, second, mask);
         match &self.masks {
             None => Ok((errors(None)?, None)),
-            Some((mask, others)) => Ok((errors(Some(mask))?, Some(errors(Some(others))?))),
+            Some((mask, others)) => Ok((errors(Some(mask))?, Some(compare(image, &self.reference, Some(others))?))),
         }
     }
 
@@ -64,15 +71,26 @@ mod tests {
         let reference = LinearImage::black(2, 1);
         let image = LinearImage { pixels: vec![Rgb::splat(1.0), Rgb::splat(3.0)], ..reference.clone() };
         let mask = Mask { width: 2, height: 1, inside: vec![false, true] };
-        let (inside, outside) = Truth::new(reference.clone(), Some(mask)).unwrap().errors(&image).unwrap();
+        let (inside, outside) = Truth::new(reference.clone(), None, Some(mask)).unwrap().errors(&image).unwrap();
         assert_eq!((inside.rmse, outside.unwrap().rmse), (3.0, 1.0));
-        let (all, outside) = Truth::new(reference, None).unwrap().errors(&image).unwrap();
+        let (all, outside) = Truth::new(reference, None, None).unwrap().errors(&image).unwrap();
         assert_eq!((all.rmse, outside), (5f64.sqrt(), None));
     }
 
     #[test]
-    fn a_mask_of_another_size_is_refused() {
+    fn two_references_count_inside_the_mask() {
+        let image = |values: [f32; 2]| LinearImage { width: 2, height: 1, pixels: values.map(Rgb::splat).to_vec() };
+        let mask = Mask { width: 2, height: 1, inside: vec![false, true] };
+        let truth = Truth::new(image([2.0, 2.0]), Some(image([1.0, -5.0])), Some(mask)).unwrap();
+        let (inside, outside) = truth.errors(&image([3.0, 3.0])).unwrap();
+        assert_eq!((inside.rmse, outside.unwrap().rmse), (8f64.sqrt(), 1.0));
+    }
+
+    #[test]
+    fn pictures_of_other_sizes_are_refused() {
         let mask = Mask { width: 1, height: 1, inside: vec![true] };
-        assert!(Truth::new(LinearImage::black(2, 1), Some(mask)).is_err());
+        let truth = |second, mask| Truth::new(LinearImage::black(2, 1), second, mask);
+        assert!(truth(None, Some(mask)).is_err());
+        assert!(truth(Some(LinearImage::black(1, 1)), None).is_err());
     }
 }

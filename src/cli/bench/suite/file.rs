@@ -24,10 +24,14 @@ pub(super) struct Entry {
     /// A file, or without an ending the name of a built-in scene.
     pub(super) scene: PathBuf,
     pub(super) reference: Option<PathBuf>,
-    reference_seconds: Option<Seconds>,
+    /// Another one with other noise: see [`Truth`](crate::cli::bench::truth::Truth).
+    pub(super) second_reference: Option<PathBuf>,
+    reference_seconds: Option<Positive>,
     pub(super) mask: Option<PathBuf>,
     /// The part of the light that is measured; all of it if nobody says.
     pub(super) only: Option<Part>,
+    /// The relMSE that others reach.
+    pub(super) others: Option<Positive>,
     pub(super) seconds: Marks,
     #[serde(default = "one")]
     pub(super) seeds: NonZeroU64,
@@ -55,16 +59,16 @@ impl TryFrom<String> for Name {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(try_from = "f64")]
-struct Seconds(f64);
+pub(super) struct Positive(pub(super) f64);
 
-impl TryFrom<f64> for Seconds {
+impl TryFrom<f64> for Positive {
     type Error = &'static str;
 
-    fn try_from(seconds: f64) -> Result<Self, Self::Error> {
-        let fits = seconds.is_finite() && seconds > 0.0;
-        fits.then_some(Self(seconds)).ok_or("expected a number above 0")
+    fn try_from(number: f64) -> Result<Self, Self::Error> {
+        let fits = number.is_finite() && number > 0.0;
+        fits.then_some(Self(number)).ok_or("expected a number above 0")
     }
 }
 
@@ -107,6 +111,9 @@ fn parse(text: &str) -> Result<Vec<Entry>, String> {
         if entry.reference.is_some() && entry.reference_seconds.is_some() {
             return Err(format!("run \"{name}\": reference_seconds is of no use with a reference: leave one out"));
         }
+        if entry.second_reference.is_some() && entry.reference.is_none() {
+            return Err(format!("run \"{name}\": second_reference takes a reference: add one"));
+        }
     }
     Ok(suite.run)
 }
@@ -141,6 +148,8 @@ mod tests {
             (&RUN.replace("\"a\"", "\"../a\""), "expected a name of letters"),
             (&format!("{RUN}seeds = 0"), "line 5, column 9"),
             (&format!("{RUN}reference_seconds = 0"), "expected a number above 0"),
+            (&format!("{RUN}others = -1e-4"), "expected a number above 0"),
+            (&format!("{RUN}second_reference = \"b.exr\""), "run \"a\": second_reference takes a reference"),
             (&twice.replacen("\"a\"", "\"A\"", 1), "two runs are called \"a\""),
             (&both, "reference_seconds is of no use"),
         ] {

@@ -1,38 +1,41 @@
+use super::result::RunResult;
 use crate::cli::{
-    bench::{
-        median::{Median, Pair},
-        slope::slopes,
-    },
+    bench::{median::Pair, slope::slopes},
     words::counted,
 };
 
 /// The medians of several runs as one table of Markdown; a run's slopes stand in the line of its last mark.
-pub(super) fn table(runs: &[(String, Vec<Median>)], threads: usize) -> String {
-    let masked = runs.iter().flat_map(|(_, medians)| medians).any(|median| median.outside.is_some());
+pub(super) fn table(runs: &[RunResult], threads: usize) -> String {
+    let compared = runs.iter().any(|run| run.others.is_some());
+    let others = |text: String| if compared { text } else { String::new() };
+    let masked = runs.iter().flat_map(|run| &run.medians).any(|median| median.outside.is_some());
     let outside = |text: String| if masked { text } else { String::new() };
-    let has_flip = runs.iter().flat_map(|(_, medians)| medians).any(|median| median.flip.is_some());
+    let has_flip = runs.iter().flat_map(|run| &run.medians).any(|median| median.flip.is_some());
     let flip = |text: String| if has_flip { text } else { String::new() };
     let threads = counted(threads as u64, "thread");
     let mut text = format!(
         "Medians over the seeds of each run, on {threads}. The seconds are those of the iterations that end before the \
          mark, or of the first one. A slope is the power of time like which an error falls in the last two octaves. The estimate is \
          that of the RMSE without the reference.\n\n\
-         | scene | mark | seconds | RMSE | relMSE |{}{} estimate over RMSE | slope of RMSE | slope of relMSE |\n\
-         |---|--:|--:|--:|--:|{}{}--:|--:|--:|\n",
+         | scene | mark | seconds | RMSE | relMSE |{}{}{} estimate over RMSE | slope of RMSE | slope of relMSE |\n\
+         |---|--:|--:|--:|--:|{}{}{}--:|--:|--:|\n",
+        others(" relMSE of others | others over ours |".to_owned()),
         outside(" RMSE outside the mask | relMSE outside the mask |".to_owned()),
         flip(" FLIP |".to_owned()),
+        others("--:|--:|".to_owned()),
         outside("--:|--:|".to_owned()),
         flip("--:|".to_owned()),
     );
-    for (name, medians) in runs {
+    for RunResult { name, others: rel_mse_of_others, medians } in runs {
         for (k, median) in medians.iter().enumerate() {
             let is_last = k + 1 == medians.len();
             let slopes = slopes(medians).filter(|_| is_last);
             text += &format!(
-                "| {name} | {} | {:.2} | {} |{}{} {} | {} |\n",
+                "| {name} | {} | {:.2} | {} |{}{}{} {} | {} |\n",
                 median.mark,
                 median.seconds,
                 errors(median.errors),
+                others(format!(" {} |", rel_mse_of_others.map_or("|".to_owned(), |e| quotient(e, median.errors)))),
                 outside(format!(" {} |", median.outside.map_or("|".to_owned(), errors))),
                 flip(format!(" {} |", median.flip.map_or(String::new(), |flip| format!("{flip:.4}")))),
                 median.estimate_over_error.map_or(String::new(), |ratio| format!("{ratio:.2}")),
@@ -47,9 +50,14 @@ fn errors(pair: Pair) -> String {
     format!("{:.5} | {:.2e}", pair.rmse, pair.rel_mse)
 }
 
+fn quotient(others: f64, ours: Pair) -> String {
+    format!("{others:.1e} | {:.1}", others / ours.rel_mse)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::bench::median::Median;
 
     fn median(mark: f64, rmse: f64, outside: Option<f64>) -> Median {
         let pair = |rmse| Pair { rmse, rel_mse: rmse * rmse };
@@ -63,9 +71,13 @@ mod tests {
         }
     }
 
+    fn run(name: &str, others: Option<f64>, medians: Vec<Median>) -> RunResult {
+        RunResult { name: name.to_owned(), others, medians }
+    }
+
     #[test]
     fn a_line_for_each_mark() {
-        let runs = [("a".to_owned(), vec![median(1.0, 0.5, None), median(4.0, 0.25, None)])];
+        let runs = [run("a", None, vec![median(1.0, 0.5, None), median(4.0, 0.25, None)])];
         let text = table(&runs, 1);
         assert!(text.starts_with("Medians over the seeds of each run, on 1 thread. "), "{text}");
         assert!(
@@ -82,14 +94,16 @@ mod tests {
     #[test]
     fn every_line_has_every_column() {
         let runs = [
-            ("a".to_owned(), vec![median(1.0, 0.5, None)]),
-            ("b".to_owned(), vec![median(1.0, 0.5, Some(0.1)), median(2.0, 0.25, Some(0.1))]),
+            run("a", None, vec![median(1.0, 0.5, None)]),
+            run("b", Some(0.5), vec![median(1.0, 0.5, Some(0.1)), median(2.0, 0.25, Some(0.1))]),
         ];
         let text = table(&runs, 2);
         let bars: Vec<_> = text.lines().skip(2).map(|line| line.matches('|').count()).collect();
-        assert_eq!(bars, [12; 5], "{text}");
+        assert_eq!(bars, [14; 5], "{text}");
         assert!(
-            text.contains("| b | 1 | 1.00 | 0.50000 | 2.50e-1 | 0.10000 | 1.00e-2 | 0.1000 | 1.25 | | |\n"),
+            text.contains(
+                "| b | 1 | 1.00 | 0.50000 | 2.50e-1 | 5.0e-1 | 2.0 | 0.10000 | 1.00e-2 | 0.1000 | 1.25 | | |\n"
+            ),
             "{text}"
         );
     }

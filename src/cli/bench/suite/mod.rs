@@ -2,10 +2,12 @@
 
 mod file;
 mod markdown;
+mod result;
 mod run;
 
 use super::{csv::csv, median::medians, plot};
 use crate::cli::{CliError, output::write, render::pool};
+use result::RunResult;
 use run::Run;
 use std::{
     fs,
@@ -17,7 +19,7 @@ use std::{
 const FEWEST_PLOTTED: usize = 3;
 
 /// `patchlight bench --suite`: for each run a table, and a plot where it makes a curve, into a folder, and the medians of all
-/// into one table.
+/// into one table that is called like the suite.
 pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> Result<(), CliError> {
     // All files are read before anything is rendered.
     let folder = suite.parent().unwrap_or(Path::new(""));
@@ -28,7 +30,7 @@ pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> 
     let pool = pool(threads)?;
     let mut results = Vec::new();
     for run in runs {
-        let name = run.name.clone();
+        let (name, others) = (run.name.clone(), run.others);
         writeln!(stdout(), "\n{name}")?;
         let rows = pool.install(|| run.measure())?;
         write(&output.join(format!("{name}.csv")), csv(&rows).as_bytes())?;
@@ -36,9 +38,11 @@ pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> 
         if medians.len() >= FEWEST_PLOTTED {
             write(&output.join(format!("{name}.png")), &plot::png(&name, &rows)?)?;
         }
-        results.push((name, medians));
+        results.push(RunResult { name, others, medians });
     }
-    write(&output.join("table.md"), markdown::table(&results, pool.current_num_threads()).as_bytes())
+    let suite_md = suite.with_extension("md");
+    let table = output.join(suite_md.file_name().unwrap_or("suite.md".as_ref()));
+    write(&table, markdown::table(&results, pool.current_num_threads()).as_bytes())
 }
 
 /// What is wrong with a file that a run names.

@@ -1,4 +1,4 @@
-use super::file::{Entry, Name};
+use super::file::{Entry, Name, Positive};
 use crate::{
     cli::{
         CliError,
@@ -6,7 +6,7 @@ use crate::{
         render::{advance, advance_until},
     },
     engine::Session,
-    film::{LinearImage, Mask, compare, read_exr},
+    film::{LinearImage, Mask, compare_with_both, read_exr},
     scene::SceneFile,
     transport::Component,
 };
@@ -22,6 +22,8 @@ const REFERENCE_SEED: u64 = u64::MAX;
 /// A run with all the files that it names.
 pub(super) struct Run {
     pub(super) name: String,
+    /// The relMSE that others reach.
+    pub(super) others: Option<f64>,
     file: SceneFile,
     reference: Reference,
     mask: Option<Mask>,
@@ -31,7 +33,8 @@ pub(super) struct Run {
 }
 
 enum Reference {
-    Given(LinearImage),
+    /// Perhaps with another one.
+    Given(LinearImage, Option<LinearImage>),
     /// To be rendered, for so many seconds.
     Own(f64),
 }
@@ -43,30 +46,37 @@ impl Run {
         let file = SceneFile::find_from(folder, &entry.scene)?;
         let mask = entry.mask.as_ref().map(|mask| Mask::read(&folder.join(mask))).transpose()?;
         let reference = match &entry.reference {
-            Some(path) => Reference::Given(read_exr(&folder.join(path))?),
+            Some(path) => {
+                let second =
+                    entry.second_reference.as_ref().map(|second| read_exr(&folder.join(second))).transpose()?;
+                Reference::Given(read_exr(&folder.join(path))?, second)
+            }
             None => Reference::Own(entry.reference_seconds()),
         };
-        // Whether the mask fits is told now, not after other runs.
-        let truth = match &reference {
-            Reference::Given(image) => image,
-            Reference::Own(_) => &LinearImage::black(file.scene.film.width, file.scene.film.height),
+        // Whether the pictures fit is told now, not after other runs.
+        let (truth, second) = match &reference {
+            Reference::Given(image, second) => (image, second.as_ref()),
+            Reference::Own(_) => (&LinearImage::black(file.scene.film.width, file.scene.film.height), None),
         };
-        compare(truth, truth, mask.as_ref())?;
+        compare_with_both(truth, truth, second.unwrap_or(truth), mask.as_ref())?;
         let (marks, seeds) = (entry.seconds.0.clone(), entry.seeds.get());
         let only = entry.only.map(Component::from);
-        Ok(Self { name: name.clone(), file, reference, mask, marks, seeds, only })
+        let others = entry.others.map(|Positive(rel_mse)| rel_mse);
+        Ok(Self { name: name.clone(), others, file, reference, mask, marks, seeds, only })
     }
 
     /// To be called inside the thread pool that is to do the work.
     pub(super) fn measure(self) -> Result<Vec<Measurement>, CliError> {
-        let reference = match self.reference {
-            Reference::Given(image) => image,
+        let (reference, second) = match self.reference {
+            Reference::Given(image, second) => (image, second),
             Reference::Own(seconds) => {
                 writeln!(stdout(), "rendering a reference for {seconds} s")?;
-                own_reference(&self.file, self.only, seconds)?
+                (own_reference(&self.file, self.only, seconds)?, None)
             }
         };
-        Trial::new(self.file, Truth::new(reference, self.mask)?, &self.marks, self.seeds).only(self.only).measure()
+        Trial::new(self.file, Truth::new(reference, second, self.mask)?, &self.marks, self.seeds)
+            .only(self.only)
+            .measure()
     }
 }
 
