@@ -1,7 +1,7 @@
 //! Whether a picture shows the caustic: how like it is, where there is a caustic, to the converged picture.
 
-use image::imageops::{FilterType, resize};
-use image::{GrayImage, RgbImage, imageops};
+use image::imageops::{FilterType, grayscale, resize};
+use image::{GrayImage, RgbImage};
 use patchlight::engine::Session;
 use patchlight::film::{LinearImage, ToneMap};
 use patchlight::math::Rgb;
@@ -10,16 +10,15 @@ use patchlight::transport::{Cancel, Component};
 
 /// So many take the picture near enough to the true one.
 const ITERATIONS: u64 = 8;
-/// There is a caustic where it brings more than this part of the light,
-const SHARE: f32 = 0.1;
-/// and so many pixels around, for its edge is what it is known by.
-const MARGIN: usize = 4;
+/// There is a caustic where mirrors and glass bring more than this part of the light. More pixels would tell less: a polished
+/// wall sends a little everywhere, and where textures and shadows differ most, pictures are alike without any caustic.
+const SHARE: f32 = 0.3;
 
 /// The converged picture of a scene, and where it has a caustic.
 pub(crate) struct Caustic {
     shows: ToneMap,
     converged: GrayImage,
-    without: GrayImage,
+    without: RgbImage,
     region: Vec<bool>,
 }
 
@@ -28,13 +27,13 @@ impl Caustic {
         let whole = picture(file, None);
         let caustics = picture(file, Some(Component::Caustics));
         let pairs = whole.pixels.iter().zip(&caustics.pixels);
-        let is_lit: Vec<bool> = pairs.clone().map(|(all, part)| sum(*part) > SHARE * sum(*all)).collect();
+        let region = pairs.clone().map(|(all, part)| sum(*part) > SHARE * sum(*all)).collect();
         let rest = pairs.map(|(all, part)| *all - *part).collect();
         let shows = ToneMap::new(file.scene.film.exposure, file.scene.film.tone_curve);
         Self {
-            converged: shown(&whole, &shows),
+            converged: grayscale(&shown(&whole, &shows)),
             without: shown(&LinearImage { pixels: rest, ..whole.clone() }, &shows),
-            region: enlarged(&is_lit, whole.width as usize),
+            region,
             shows,
         }
     }
@@ -42,16 +41,18 @@ impl Caustic {
     /// The correlation of a picture, enlarged to full size, with the converged one, of what the screen shows there: 1 is the
     /// same but for brightness and contrast.
     pub(crate) fn likeness(&self, image: &LinearImage) -> f64 {
+        self.correlation(&shown(image, &self.shows))
+    }
+
+    /// The same of the converged picture without its caustics on a film as wide, for comparison.
+    pub(crate) fn likeness_without(&self, width: u32) -> f64 {
+        let height = width * self.without.height() / self.without.width();
+        self.correlation(&resize(&self.without, width, height, FilterType::Triangle))
+    }
+
+    fn correlation(&self, image: &RgbImage) -> f64 {
         let (width, height) = self.converged.dimensions();
-        self.correlation(&resize(&shown(image, &self.shows), width, height, FilterType::Triangle))
-    }
-
-    /// The same of the converged picture without its caustics, for comparison.
-    pub(crate) fn likeness_without(&self) -> f64 {
-        self.correlation(&self.without)
-    }
-
-    fn correlation(&self, image: &GrayImage) -> f64 {
+        let image = grayscale(&resize(image, width, height, FilterType::Triangle));
         let pairs = image.iter().zip(self.converged.iter()).zip(&self.region).filter(|(_, inside)| **inside);
         correlation(pairs.map(|((x, y), _)| (f64::from(*x), f64::from(*y))))
     }
@@ -69,18 +70,10 @@ fn sum(pixel: Rgb) -> f32 {
     pixel.to_array().iter().sum()
 }
 
-/// What the screen shows, without colour.
-fn shown(image: &LinearImage, shows: &ToneMap) -> GrayImage {
+/// What the screen shows.
+fn shown(image: &LinearImage, shows: &ToneMap) -> RgbImage {
     let bytes = shows.map_image(image).into_flattened();
-    imageops::grayscale(&RgbImage::from_raw(image.width, image.height, bytes).expect("there are three bytes a pixel"))
-}
-
-/// With the pixels around.
-fn enlarged(region: &[bool], width: usize) -> Vec<bool> {
-    let (columns, rows) = (width, region.len() / width);
-    let near = |k: usize, end: usize| k.saturating_sub(MARGIN)..(k + MARGIN + 1).min(end);
-    let any = |x: usize, y: usize| near(y, rows).any(|y| near(x, columns).any(|x| region[y * width + x]));
-    (0..region.len()).map(|k| any(k % width, k / width)).collect()
+    RgbImage::from_raw(image.width, image.height, bytes).expect("there are three bytes a pixel")
 }
 
 /// Pearson's coefficient.

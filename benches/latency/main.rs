@@ -102,7 +102,9 @@ fn main() {
     // Its threads rest while the converged picture is rendered.
     drop(engine);
     let caustic = Caustic::render(&lifted(LIFT));
-    println!("| caustic in the first draft, correlation with the converged one | {:.3} |", caustic.likeness(&draft));
-    println!("| caustic in the first whole picture | {:.3} |", caustic.likeness(&whole));
-    println!("| the converged picture without its caustics, there | {:.3} |", caustic.likeness_without());
+    for (name, image) in [("draft", &draft), ("whole picture", &whole)] {
+        let (with, without) = (caustic.likeness(image), caustic.likeness_without(image.width));
+        println!("| caustic in the first {name}, correlation with the converged one | {with:.2} |");
+        println!("| the converged one, as wide but without caustics | {without:.2} |");
+    }
 }
