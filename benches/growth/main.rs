@@ -157,7 +157,9 @@ fn bounces() {
 
 /// The passes of one iteration that grow with the photons.
 fn photons() {
-    println!("\n| paths | photons | photon pass, s | map, s | gather, s | map's memory |\n|--:|--:|--:|--:|--:|--:|");
+    println!(
+        "\n| paths for interreflection | photons | photon pass, s | map, s | gather, s | map's memory |\n|--:|--:|--:|--:|--:|--:|"
+    );
     let file = balls();
     let world = prepare(&file.scene, &file.location, None).expect("the scene is whole");
     let mut plan = Plan::new(&world);
@@ -175,8 +177,8 @@ fn photons() {
             gather(&world, &plan, &maps, batch, ITERATION, Cancel::NEVER).expect("never cancelled").0
         };
         let (gather, _) = seconds(|| seen.par_iter().map(gather).collect::<Vec<_>>());
-        let (count, megabytes) = (batch.photons.len(), maps.global.memory_bytes() >> 20);
-        println!("| {paths} | {count} | {photon_pass:.3} | {build:.3} | {gather:.3} | {megabytes} MB |");
+        let (count, megabytes) = (batch.photons.len(), maps.global.memory_bytes() as f64 / f64::from(1 << 20));
+        println!("| {paths} | {count} | {photon_pass:.3} | {build:.3} | {gather:.3} | {megabytes:.1} MB |");
     }
 }
 

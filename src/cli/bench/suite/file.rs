@@ -24,7 +24,7 @@ pub(super) struct Entry {
     /// A file, or without an ending the name of a built-in scene.
     pub(super) scene: PathBuf,
     pub(super) reference: Option<PathBuf>,
-    /// Another one with other noise: see [`Truth`](crate::cli::bench::truth::Truth).
+    /// Another one, with other noise.
     pub(super) second_reference: Option<PathBuf>,
     reference_seconds: Option<Positive>,
     pub(super) mask: Option<PathBuf>,
