@@ -121,6 +121,7 @@
 //! - \[Mitchell96\] D. P. Mitchell, Consequences of Stratified Sampling in Graphics, SIGGRAPH 1996.
 //! - \[Neyman34\] J. Neyman, On the Two Different Aspects of the Representative Method, J. Royal Statistical Society 97(4),
 //!   1934.
+//! - \[Owen97\] A. B. Owen, Scrambled Net Variance for Integrals of Smooth Functions, Annals of Statistics 25(4), 1997.
 //! - \[Reinhard02\] E. Reinhard et al., Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002.
 //! - \[ShirleyChiu97\] P. Shirley, K. Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997.
 //! - \[Ward88\] G. Ward, F. Rubinstein, R. Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988.

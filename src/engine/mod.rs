@@ -6,6 +6,7 @@
 mod film_sums;
 mod frame;
 mod iteration;
+mod noise_laws;
 mod session;
 mod shared;
 mod worker;

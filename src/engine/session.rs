@@ -125,7 +125,7 @@ impl Session {
     /// Whether the estimate of the error is known, and no more than this. A black picture never has an estimate, and no error
     /// either.
     pub fn reaches(&self, error: f64) -> bool {
-        self.iterations() >= 2 && self.error_estimate().is_none_or(|estimate| estimate <= error)
+        self.iterations() >= FilmSums::ESTIMATED_FROM && self.error_estimate().is_none_or(|estimate| estimate <= error)
     }
 
     fn error_estimate(&self) -> Option<f64> {
