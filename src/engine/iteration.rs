@@ -26,10 +26,14 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     let mut counters = Counters::default();
     let mut seconds = PassSeconds::default();
 
+    // Side by side: no thread is idle while the other one is at the end of a pass.
     let (caustic, global) = timed(&mut seconds.photons, || {
-        let caustic = caustic_photon_pass(world, plan, seed, i, cancel)?;
-        Some((caustic, global_photon_pass(world, plan, seed, i, cancel)?))
-    })?;
+        rayon::join(
+            || caustic_photon_pass(world, plan, seed, i, cancel),
+            || global_photon_pass(world, plan, seed, i, cancel),
+        )
+    });
+    let (caustic, global) = (caustic?, global?);
     counters += caustic.counters;
     counters += global.counters;
 

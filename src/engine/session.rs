@@ -101,17 +101,21 @@ impl Session {
         let iteration = render_iteration(&self.world, &self.plan, self.seed, number, cancel);
         if let Some(iteration) = &iteration {
             let commit = Instant::now();
-            self.film.commit(self.plan.weight(number), &iteration.photons, &iteration.samples);
-            self.passes += iteration.seconds;
-            self.passes.commit += commit.elapsed().as_secs_f64();
-            self.counters += iteration.counters;
             let (width, height) = (self.plan.camera.width, self.plan.camera.height);
             let measured = self.measured.get_or_insert_with(|| Measured::new(width, height));
-            measured.add(number, &iteration.contrasts, &iteration.samples);
+            let weight = self.plan.weight(number);
+            let film = &mut self.film;
+            rayon::join(
+                || film.commit(weight, &iteration.photons, &iteration.samples),
+                || measured.add(number, &iteration.contrasts, &iteration.samples),
+            );
+            self.passes += iteration.seconds;
+            self.counters += iteration.counters;
             if let Some(refined) = self.plan.refined(number, measured) {
                 self.plan = refined;
                 measured.forget_radii();
             }
+            self.passes.commit += commit.elapsed().as_secs_f64();
         }
         self.seconds += start.elapsed().as_secs_f64();
         iteration.map(|_| ())
