@@ -1,5 +1,5 @@
 use super::CliError;
-use crate::engine::Frame;
+use crate::engine::{Counters, Frame};
 use serde::Serialize;
 
 /// Numbers about a rendering, as `--stats` writes them.
@@ -16,6 +16,7 @@ pub(super) struct Statistics<'a> {
     height: u32,
     threads: usize,
     pass_seconds: PassSeconds,
+    counters: Counters,
     plan: Vec<Note<'a>>,
 }
 
@@ -60,6 +61,7 @@ impl<'a> Statistics<'a> {
                 gather: passes.gather,
                 commit: passes.commit,
             },
+            counters: stats.counters,
             plan: frame.plan.notes.iter().map(note).collect(),
         }
     }

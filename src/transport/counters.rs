@@ -1,8 +1,9 @@
+use serde::Serialize;
 use std::iter::Sum;
 use std::ops::AddAssign;
 
 /// What passes did: proof of what was needed and what was skipped.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
     /// Rays that looked for the nearest surface.
     pub rays: u64,

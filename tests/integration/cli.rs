@@ -103,6 +103,8 @@ fn renders_png_exr_and_statistics() {
     for key in ["photons_emitted", "rays", "seconds", "cpu_seconds", "error_estimate"] {
         assert!(stats[key].is_number(), "{key} in {stats}");
     }
+    assert!(stats["counters"]["shadow_rays"].as_u64().is_some_and(|n| n > 0), "{stats}");
+    assert_eq!(stats["counters"]["caustic_gathers"], 0, "there is no mirror");
     assert!(stats["plan"].as_array().is_some_and(|plan| !plan.is_empty()), "{stats}");
 }
 
@@ -287,6 +289,8 @@ fn bench_measures_against_a_reference() {
     let csv = fs::read_to_string(dir.path().join("a.csv")).unwrap();
     assert_eq!(column(&csv, "seed"), ["0", "0", "1", "1"]);
     assert_eq!(column(&csv, "mark"), ["0.05", "0.2", "0.05", "0.2"]);
+    assert_eq!(column(&csv, "caustic_paths"), ["0"; 4], "there is no mirror");
+    assert!(column(&csv, "shadow_rays").iter().all(|n| n.parse::<u64>().is_ok_and(|n| n > 0)), "{csv}");
     for rmse in column(&csv, "rmse") {
         let rmse: f64 = rmse.parse().unwrap();
         assert!(rmse > 0.0 && rmse < 0.1, "a ball lit by one lamp is soon right: {csv}");

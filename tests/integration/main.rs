@@ -12,6 +12,7 @@ mod gloss;
 mod indirect_shadow;
 mod passes;
 mod plan;
+mod skipping;
 mod texture;
 #[cfg(feature = "gui")]
 mod window;

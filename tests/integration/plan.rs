@@ -10,7 +10,7 @@ const CAUSTICS: &str = "caustics";
 const SEEN: &str = "caustics in mirrors and glass";
 const INTERREFLECTION: &str = "interreflection";
 
-const HEAD: &str = r#"
+pub(crate) const HEAD: &str = r#"
     [camera]
     position = [0, 0, 4]
     target = [0, 0, 0]
@@ -34,13 +34,13 @@ const HEAD: &str = r#"
     intensity = [1, 1, 1]
 "#;
 
-fn ball(name: &str, x: f64, radius: f64, material: &str) -> String {
+pub(crate) fn ball(name: &str, x: f64, radius: f64, material: &str) -> String {
     format!(
         "[[object]]\nname = \"{name}\"\ntype = \"sphere\"\ncenter = [{x}, 0, 0]\nradius = {radius}\nmaterial = \"{material}\"\n"
     )
 }
 
-fn floor(material: &str) -> String {
+pub(crate) fn floor(material: &str) -> String {
     format!(
         "[[object]]\nname = \"floor\"\ntype = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\nmaterial = \"{material}\"\n"
     )

@@ -1,0 +1,71 @@
+//! What a scene does not need is not done: the counters of whole iterations.
+
+use crate::closed_forms::scene;
+use crate::plan::{HEAD, ball, floor};
+use patchlight::engine::{Counters, Session};
+use patchlight::transport::Cancel;
+
+const ITERATIONS: u64 = 6;
+
+/// What some iterations of a scene with these objects did.
+fn counters(max_bounces: u32, objects: &[String]) -> Counters {
+    let film = "[film]\nwidth = 32\nheight = 32\n";
+    let text = format!("{HEAD}{film}{}[render]\nmax_bounces = {max_bounces}\n", objects.concat());
+    let mut session = Session::prepare(&scene(&text), 3, None).expect("the scene can be prepared");
+    for _ in 0..ITERATIONS {
+        session.advance(Cancel::NEVER).expect("never cancelled");
+    }
+    session.stats().counters
+}
+
+/// A floor with a picture on it.
+fn textured_floor() -> String {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/textures/planks.png");
+    format!(
+        "[[texture]]\nname = \"wood\"\nfile = \"{file}\"\n[[material]]\nname = \"wooden\"\ntype = \"diffuse\"\n\
+         albedo = {{ texture = \"wood\" }}\n{}",
+        floor("wooden")
+    )
+}
+
+#[test]
+fn everything_is_done_where_everything_is_needed() {
+    let counters = counters(16, &[textured_floor(), ball("a", -0.7, 0.5, "white"), ball("b", 0.7, 0.5, "mirror")]);
+    let Counters { rays, shadow_rays, caustic_paths, global_paths, photons_stored, .. } = counters;
+    let Counters { splats, caustic_gathers, global_gathers, map_builds, texture_lookups, dropped_samples, .. } =
+        counters;
+    for (k, count) in [rays, shadow_rays, caustic_paths, global_paths, photons_stored, splats].into_iter().enumerate() {
+        assert!(count > 0, "{k} of {counters:?}");
+    }
+    for (k, count) in [caustic_gathers, global_gathers, map_builds, texture_lookups].into_iter().enumerate() {
+        assert!(count > 0, "{k} of {counters:?}");
+    }
+    assert_eq!(dropped_samples, 0);
+}
+
+#[test]
+fn without_mirrors_and_textures_there_is_one_map_and_nothing_is_looked_up() {
+    let counters = counters(16, &[floor("white"), ball("a", 0.0, 0.5, "white")]);
+    let Counters { caustic_paths, splats, caustic_gathers, texture_lookups, map_builds, .. } = counters;
+    assert_eq!([caustic_paths, splats, caustic_gathers, texture_lookups], [0; 4]);
+    assert_eq!(map_builds, ITERATIONS);
+}
+
+#[test]
+fn direct_light_alone_takes_no_photons() {
+    let mirrored = [floor("white"), ball("a", 0.0, 0.5, "white"), ball("b", 1.5, 0.5, "mirror")];
+    let convex = [ball("a", 0.0, 0.5, "white")];
+    for (max_bounces, objects) in [(1, mirrored.as_slice()), (16, &convex)] {
+        let counters = counters(max_bounces, objects);
+        let Counters { rays, shadow_rays, .. } = counters;
+        assert!(rays > 0 && shadow_rays > 0);
+        assert_eq!(counters, Counters { rays, shadow_rays, ..Counters::default() }, "nothing else");
+    }
+}
+
+#[test]
+fn where_nothing_scatters_light_only_the_camera_looks() {
+    let counters = counters(16, &[floor("black"), ball("b", 0.0, 0.5, "mirror")]);
+    assert!(counters.rays > 0);
+    assert_eq!(counters, Counters { rays: counters.rays, ..Counters::default() });
+}
