@@ -16,7 +16,7 @@ pub(super) fn table(runs: &[RunResult], threads: usize) -> String {
     let mut text = format!(
         "Medians over the seeds of each run, on {threads}. The seconds are those of the iterations that end before the \
          mark, or of the first one. A slope is the power of time like which an error falls in the last two octaves. The estimate is \
-         that of the RMSE without the reference.\n\n\
+         that of the RMSE of the whole picture, also outside the mask, without the reference.\n\n\
          | scene | mark | seconds | RMSE | relMSE |{}{}{} estimate over RMSE | slope of RMSE | slope of relMSE |\n\
          |---|--:|--:|--:|--:|{}{}{}--:|--:|--:|\n",
         others(" relMSE of others | others over ours |".to_owned()),
