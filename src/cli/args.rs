@@ -95,7 +95,8 @@ pub(super) struct Budget {
     /// Render this many iterations
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) iterations: Option<u64>,
-    /// Render until the estimated error, relative to the mean radiance, is below this: 0.02 is 2 %
+    /// Render until the estimated error, relative to the mean radiance, is below this: 0.02 is 2 %; the fewer the pixels, the
+    /// rougher the estimate
     #[arg(long, value_name = "E", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) error: Option<f64>,
 }

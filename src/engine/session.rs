@@ -129,10 +129,18 @@ impl Session {
     /// Whether the estimate of the error is known, and no more than this. A black picture never has an estimate, and no error
     /// either.
     pub fn reaches(&self, error: f64) -> bool {
-        self.iterations() >= FilmSums::ESTIMATED_FROM && self.error_estimate().is_none_or(|estimate| estimate <= error)
+        self.may_estimate() && self.error_estimate().is_none_or(|estimate| estimate <= error)
+    }
+
+    /// Whether there are enough iterations to estimate the error.
+    fn may_estimate(&self) -> bool {
+        self.iterations() >= FilmSums::ESTIMATED_FROM && self.plan.knows_bias(self.iterations())
     }
 
     fn error_estimate(&self) -> Option<f64> {
+        if !self.may_estimate() {
+            return None;
+        }
         self.film.error_estimate(self.measured.as_ref().map_or(0.0, Measured::squared_bias))
     }
 

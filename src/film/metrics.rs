@@ -68,9 +68,9 @@ fn errors(pixels: impl Iterator<Item = [Rgb; 3]>) -> Errors {
     Errors {
         pixels: squares.len(),
         rmse: root(mean(&squares)),
-        rel_mse: mean(&relative),
+        rel_mse: mean(&relative).max(0.0),
         rmse_trimmed: root(trimmed_mean(&mut squares)),
-        rel_mse_trimmed: trimmed_mean(&mut relative),
+        rel_mse_trimmed: trimmed_mean(&mut relative).max(0.0),
         mean_ratio: std::array::from_fn(|c| sums[0][c] / sums[1][c]),
         reference_mean: sums[1].iter().sum::<f64>() / (3.0 * count),
     }
@@ -87,7 +87,7 @@ fn root(square: f64) -> f64 {
 }
 
 fn trimmed_mean(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
+    values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     mean(&values[..(values.len() as f64 * TRIMMED_PART) as usize])
 }
 

@@ -41,6 +41,12 @@ pub(super) fn refinements_before(i: u64) -> u32 {
     (i.saturating_sub(1).max(FIRST_REFINEMENT / 2) / (FIRST_REFINEMENT / 2)).ilog2()
 }
 
+/// Whether the bias of iterations 1 to `i` is known: after the first ones, whose wide discs blur sharp caustics more than is
+/// measured, that of some more.
+pub(super) fn knows_bias(i: u64) -> bool {
+    i > FIRST_REFINEMENT
+}
+
 /// Whether iteration `i` measures what the radii are chosen by: the first ones, whose radii differ much, do not.
 pub(super) fn measures(i: u64) -> bool {
     i > FIRST_REFINEMENT / 2

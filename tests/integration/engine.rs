@@ -1,8 +1,9 @@
 //! The engine: drafts first, newest scene wins, pause, restart, failures.
 
 use crate::closed_forms::scene;
-use patchlight::engine::{Command, Engine, EngineSettings, Frame, Status};
+use patchlight::engine::{Command, Engine, EngineSettings, Frame, Session, Status};
 use patchlight::scene::SceneFile;
+use patchlight::transport::Cancel;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -18,6 +19,23 @@ fn room(radius: f64) -> Arc<SceneFile> {
         [[object]]\nname = \"floor\"\ntype = \"plane\"\npoint = [0,-1,0]\nnormal = [0,1,0]\nmaterial = \"wall\"
         [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [1, 1.5, 1]\nintensity = [2, 2, 2]\n"
     )))
+}
+
+#[test]
+fn there_is_no_estimate_before_noise_and_bias_are_known() {
+    let estimated_from = |file: &SceneFile| {
+        let mut session = Session::prepare(file, 1, None).expect("the scene can be prepared");
+        (1..10).find(|_| {
+            session.advance(Cancel::NEVER).expect("never cancelled");
+            let estimate = session.stats().error_estimate;
+            assert_eq!(session.reaches(f64::INFINITY), estimate.is_some());
+            estimate.is_some()
+        })
+    };
+    assert_eq!(estimated_from(&room(0.5)), Some(5), "the ball's caustic is sharp");
+    let mut diffuse = room(0.5).as_ref().clone();
+    diffuse.scene.objects.remove(0);
+    assert_eq!(estimated_from(&diffuse), Some(3));
 }
 
 fn engine() -> Engine {

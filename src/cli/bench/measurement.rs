@@ -18,8 +18,10 @@ pub(super) struct Measurement {
 }
 
 impl Measurement {
-    /// The error that was estimated without the reference, over the true one; `None` where there was no estimate.
+    /// The error that was estimated without the reference, over the true one; `None` where there was no estimate, or no error:
+    /// by two references it is 0 where they are farther from each other than the picture from either.
     pub(super) fn estimate_over_error(&self) -> Option<f64> {
-        self.stats.error_estimate.map(|estimate| estimate * self.errors.reference_mean / self.errors.rmse)
+        let estimate = self.stats.error_estimate.filter(|_| self.errors.rmse > 0.0);
+        estimate.map(|estimate| estimate * self.errors.reference_mean / self.errors.rmse)
     }
 }

@@ -112,6 +112,11 @@ impl Plan {
         MAX_PART_OF_SPHERE * sphere.radius > LARGE_CAUSTIC_RADIUS * footprint
     }
 
+    /// Whether the bias of iterations 1 to `i` is known: not that of the first ones where they gather sharp caustics.
+    pub fn knows_bias(&self, i: u64) -> bool {
+        schedule::knows_bias(i) || self.caustics.as_ref().is_none_or(|caustics| caustics.gathered.is_infinite())
+    }
+
     /// Whether the map of caustics serves anything in this iteration. Where measured radii say that it does not, it never will:
     /// nothing is measured any more, and the best radii get smaller as iterations get more.
     pub fn needs_caustic_map(&self, iteration: u64) -> bool {

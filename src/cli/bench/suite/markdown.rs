@@ -51,7 +51,7 @@ fn errors(pair: Pair) -> String {
 }
 
 fn quotient(others: f64, ours: Pair) -> String {
-    format!("{others:.1e} | {:.1}", others / ours.rel_mse)
+    if ours.rel_mse > 0.0 { format!("{others:.1e} | {:.1}", others / ours.rel_mse) } else { format!("{others:.1e} |") }
 }
 
 #[cfg(test)]
