@@ -108,7 +108,8 @@ pub(super) struct BenchArguments {
     /// The true picture
     #[arg(long, value_name = "REF.exr")]
     pub(super) reference: Option<PathBuf>,
-    /// Another true picture with other noise: errors are then measured without the noise of either
+    /// Another true picture with other noise: errors are then measured without the noise of either, and outside the mask by
+    /// this one alone
     #[arg(long, value_name = "REF.exr", requires = "reference")]
     pub(super) second_reference: Option<PathBuf>,
     /// Count only pixels that are bright in this picture, and the others apart

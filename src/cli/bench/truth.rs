@@ -1,10 +1,11 @@
-use crate::film::{Errors, ImageError, LinearImage, Mask, compare_with_both};
+use crate::film::{Errors, ImageError, LinearImage, Mask, compare, compare_with_both};
 use crate::scene::Film;
 
 /// What pictures are compared with.
 pub(super) struct Truth {
     reference: LinearImage,
-    /// Another one, by which errors are measured without the references' noise.
+    /// Another one, by which errors inside the mask are measured without the references' noise; those outside, where the first one
+    /// is not trusted, by this one alone.
     second: Option<LinearImage>,
     /// The pixels that count, and the others.
     masks: Option<(Mask, Mask)>,
@@ -41,7 +42,7 @@ impl Truth {
         let errors = |mask| compare_with_both(image, &self.reference, second, mask);
         match &self.masks {
             None => Ok((errors(None)?, None)),
-            Some((mask, others)) => Ok((errors(Some(mask))?, Some(errors(Some(others))?))),
+            Some((mask, others)) => Ok((errors(Some(mask))?, Some(compare(image, second, Some(others))?))),
         }
     }
 
@@ -78,12 +79,12 @@ mod tests {
     }
 
     #[test]
-    fn two_references_count_on_both_sides_of_the_mask() {
+    fn two_references_count_inside_the_mask_and_the_second_outside() {
         let image = |values: [f32; 2]| LinearImage { width: 2, height: 1, pixels: values.map(Rgb::splat).to_vec() };
         let mask = Mask { width: 2, height: 1, inside: vec![false, true] };
         let truth = Truth::new(image([2.0, 2.0]), Some(image([-1.0, -5.0])), Some(mask)).unwrap();
         let (inside, outside) = truth.errors(&image([3.0, 3.0])).unwrap();
-        assert_eq!((inside.rmse, outside.unwrap().rmse), (8f64.sqrt(), 2.0));
+        assert_eq!((inside.rmse, outside.unwrap().rmse), (8f64.sqrt(), 4.0));
     }
 
     #[test]
