@@ -41,8 +41,8 @@ pub(super) fn refinements_before(i: u64) -> u32 {
     (i.saturating_sub(1).max(FIRST_REFINEMENT / 2) / (FIRST_REFINEMENT / 2)).ilog2()
 }
 
-/// Whether the bias of iterations 1 to `i` is known: after the first ones, whose wide discs blur sharp caustics more than is
-/// measured, that of some more.
+/// Whether the bias of iterations 1 to `i` is known. Not while all of them are first ones: their wide discs blur sharp caustics
+/// more than wider discs tell.
 pub(super) fn knows_bias(i: u64) -> bool {
     i > FIRST_REFINEMENT
 }
