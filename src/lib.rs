@@ -94,7 +94,7 @@
 //! | share | of a light: about the part of the direct light at a point that is its own |
 //! | bandwidth | radii of density estimates over the film, chosen by the contrasts |
 //! | focused | of photons: sent on by mirrors or glass after they were scattered |
-//! | lobe view | a Phong lobe as it shows one direction: tells which light seen in it is the camera's, and which photons bring |
+//! | lobe view | a Phong lobe as it shows one direction: tells which light seen in it is the camera's, and which photons bring; *seen lobe*: what a pixel finds in one and shares with its neighbours |
 //! | lanes | numbers that one vector instruction handles side by side |
 //! | control net | the 4 x 4 control points of a patch; `dpdu`, `dpdv` are the surface's derivatives |
 //! | specular | going on in one direction: mirrors and glass; *glossy*: a Phong lobe |

@@ -1,8 +1,8 @@
 use super::frame::PassSeconds;
 use crate::math::Rgb;
 use crate::transport::{
-    Cancel, Contrast, Counters, MapKind, Maps, PhotonMap, PixelSamples, Plan, Rows, camera_pass, caustic_photon_pass,
-    gather, global_photon_pass,
+    Cancel, Contrast, Counters, MapKind, Maps, PhotonMap, PixelSamples, Plan, Rows, SeenLobe, camera_pass,
+    caustic_photon_pass, gather, global_photon_pass, seen_lobes, share_lobes,
 };
 use crate::world::World;
 use rayon::prelude::*;
@@ -17,6 +17,8 @@ pub(super) struct Iteration {
     pub(super) samples: Vec<PixelSamples>,
     /// For each pixel, of [`gather`].
     pub(super) contrasts: Vec<Contrast>,
+    /// For each pixel what it shares with others: see [`seen_lobes`].
+    lobes: Vec<Option<SeenLobe>>,
     pub(super) counters: Counters,
     pub(super) seconds: PassSeconds,
 }
@@ -54,6 +56,7 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
         photons: Vec::with_capacity(pixels),
         samples: Vec::with_capacity(pixels),
         contrasts: Vec::with_capacity(pixels),
+        lobes: Vec::new(),
         counters,
         seconds,
     };
@@ -61,10 +64,12 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
         whole.photons.append(&mut band.photons);
         whole.samples.append(&mut band.samples);
         whole.contrasts.append(&mut band.contrasts);
+        whole.lobes.append(&mut band.lobes);
         whole.counters += band.counters;
         whole.seconds.camera += band.seconds.camera / threads;
         whole.seconds.gather += band.seconds.gather / threads;
     }
+    timed(&mut whole.seconds.gather, || share_lobes(&whole.lobes, plan.camera.width, &mut whole.photons));
     for splat in &caustic.splats {
         whole.photons[splat.pixel as usize] += splat.radiance;
     }
@@ -87,12 +92,16 @@ fn render_band(
     counters += seen.counters;
     let (pixels, first) = (seen.samples.len(), rows.start * plan.camera.width);
     let (mut photons, mut contrasts) = (vec![Rgb::ZERO; pixels], vec![Contrast::default(); pixels]);
+    let mut lobes = seen_lobes(world, plan, &seen.visible_points, rows, i);
     for (point, found) in seen.visible_points.iter().zip(&gathered) {
         let place = (point.pixel - first) as usize;
-        photons[place] += found.radiance;
         contrasts[place] += found.contrast;
+        match lobes.get_mut(place) {
+            Some(Some(lobe)) if !point.seen_directly => lobe.found += found.radiance,
+            _ => photons[place] += found.radiance,
+        }
     }
-    Some(Iteration { photons, samples: seen.samples, contrasts, counters, seconds })
+    Some(Iteration { photons, samples: seen.samples, contrasts, lobes, counters, seconds })
 }
 
 /// Runs a pass and adds its wall-clock time.

@@ -33,7 +33,7 @@ pub struct LobeLight {
 pub(super) struct LobeView {
     /// Photons expected from there, per area there and steradian, up to which light scattered once is the camera's.
     density: f64,
-    /// About the sine of the angle by which directions in the lobe differ from its middle.
+    /// See [`lobe_width`].
     width: f64,
     /// Of the path from the camera to the lobe.
     length: f64,
@@ -78,7 +78,7 @@ impl LobeLight {
         let pdf = (exponent + 1.0).powi(2) / (TAU * (2.0 * exponent + 1.0));
         LobeView {
             density: PHOTONS_PER_PATH * pdf / (PI * radius * radius * wi.dot(point.n_side())),
-            width: (2.0 / (exponent + 1.0)).sqrt(),
+            width: lobe_width(exponent),
             length,
         }
     }
@@ -92,6 +92,11 @@ impl LobeLight {
         let photons = self.paths.get(light).map_or(0.0, |&paths| paths as f64 * density);
         if photons > lobe.density { lobe.density / photons } else { 1.0 }
     }
+}
+
+/// About the sine of the angle by which directions in a lobe differ from its middle.
+pub(super) fn lobe_width(exponent: f64) -> f64 {
+    (2.0 / (exponent + 1.0)).sqrt()
 }
 
 fn may_be_divided(material: &Material, exponent: f64) -> bool {

@@ -5,6 +5,9 @@ use super::{CausticPlan, Plan};
 
 /// Radius for interreflection in a draft, pixels' footprints.
 const DRAFT_RADIUS: f64 = 16.0;
+/// How far from each other pixels of a draft are at most that share what they see in lobes, pixels' footprints: next to each
+/// other.
+const DRAFT_LOBE_REACH: f64 = 1.5;
 
 impl Plan {
     /// The plan for a first picture of bounded cost: every `coarseness`-th pixel each way, and fewer photons, in discs that
@@ -28,6 +31,7 @@ impl Plan {
             caustics,
             lobe_light: self.lobe_light.draft(camera, |paths| fewer(paths, global_paths), glossy_radius),
             global_paths: fewer(&self.global_paths, global_paths),
+            lobe_reach: DRAFT_LOBE_REACH,
             caustic_radius: caustic_wider * self.caustic_radius,
             least_caustic_radius: caustic_wider * self.caustic_radius,
             least_global_radius: DRAFT_RADIUS * global_wider,

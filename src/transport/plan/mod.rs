@@ -24,7 +24,7 @@ use crate::math::Stream;
 use crate::world::{Camera, World};
 use caustics::SEEN_INDIRECTLY;
 use notes::Notes;
-use radii::{CAUSTIC_RADIUS, GLOSSY_RADIUS, are_large};
+use radii::{CAUSTIC_RADIUS, GLOSSY_RADIUS, LOBE_REACH, are_large};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -47,6 +47,10 @@ pub struct Plan {
     pub lobe_light: LobeLight,
     /// Paths that look for interreflection in a full iteration, by light; empty where there is none.
     pub global_paths: Vec<u64>,
+    /// Whether neighbours share what they find in Phong lobes.
+    pub shares_lobes: bool,
+    /// How far from each other they are at most after one full iteration, pixels' footprints.
+    pub lobe_reach: f64,
     /// Radius of the density estimate of caustics after one full iteration, where nothing is near, pixels' footprints.
     pub caustic_radius: f64,
     /// The same where another object is at hand: it may cast sharp shadows in the caustic.
@@ -91,6 +95,8 @@ impl Plan {
             caustics,
             light_choice: Arc::new(LightChoice::new(world)),
             lobe_light: LobeLight::new(world.camera, glossy_paths, GLOSSY_RADIUS),
+            shares_lobes: surfaces::shows(world, World::may_share_lobes),
+            lobe_reach: LOBE_REACH,
             global_paths,
             caustic_radius: if are_large(world) { 4.0 } else { CAUSTIC_RADIUS },
             least_caustic_radius: CAUSTIC_RADIUS,

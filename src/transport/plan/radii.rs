@@ -3,6 +3,7 @@
 use super::Plan;
 use crate::transport::bandwidth::{self, WIDER};
 use crate::transport::camera_pass::Clearance;
+use crate::transport::lobe_light::lobe_width;
 use crate::transport::maps::MapKind;
 use crate::transport::schedule;
 use crate::world::World;
@@ -11,6 +12,9 @@ use crate::world::World;
 pub(super) const CAUSTIC_RADIUS: f64 = 2.0;
 /// Radius for interreflection in Phong lobes after one full iteration, pixels' footprints.
 pub(super) const GLOSSY_RADIUS: f64 = 6.0;
+/// How far from each other neighbours are at most that share what they see in lobes, after one full iteration, pixels'
+/// footprints. Measured: with 3 and 6 the error is 1.09 and 0.96 times as great in a room of gloss.
+pub(super) const LOBE_REACH: f64 = 4.0;
 /// Radii, but for the least ones, are at most this part of the distance to the next object.
 const PART_OF_CLEARANCE: f64 = 0.5;
 /// A lobe blurs what is seen in it, so that discs there may be noisier: the least part of their radius. Measured: a tenth off the
@@ -38,6 +42,18 @@ impl Plan {
     /// A radius where what is seen is blurred this far, scene units.
     pub(in crate::transport) fn radius_in_lobe(&self, radius: f64, blur: f32) -> f64 {
         radius * (radius / (radius + f64::from(blur))).max(LEAST_PART_IN_LOBE)
+    }
+
+    /// How far from each other neighbours with this footprint and this far from other objects are at most that share what they
+    /// see in a lobe with this exponent, scene units: no farther than it blurs those.
+    pub(in crate::transport) fn lobe_reach(
+        &self,
+        footprint: f64,
+        clearance: Clearance,
+        exponent: f64,
+        iteration: u64,
+    ) -> f64 {
+        (self.lobe_reach * footprint).min(lobe_width(exponent) * clearance.any) * self.shrink(iteration)
     }
 
     /// A radius for caustics, limited at a point with this footprint and this far from other objects: discs that
