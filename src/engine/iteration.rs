@@ -2,7 +2,7 @@ use super::frame::PassSeconds;
 use crate::math::Rgb;
 use crate::transport::{
     Cancel, Contrast, Counters, MapKind, Maps, PhotonMap, PixelSamples, Plan, Rows, SeenLobe, camera_pass,
-    caustic_photon_pass, gather, global_photon_pass, seen_lobes, share_lobes,
+    caustic_photon_pass, gather, global_photon_pass, join, seen_lobes, share_lobes,
 };
 use crate::world::World;
 use rayon::prelude::*;
@@ -17,7 +17,7 @@ pub(super) struct Iteration {
     pub(super) samples: Vec<PixelSamples>,
     /// For each pixel, of [`gather`].
     pub(super) contrasts: Vec<Contrast>,
-    /// For each pixel what it shares with others: see [`seen_lobes`].
+    /// For each pixel of a band what it shares with others: see [`seen_lobes`].
     lobes: Vec<Option<SeenLobe>>,
     pub(super) counters: Counters,
     pub(super) seconds: PassSeconds,
@@ -51,29 +51,24 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     let bands = plan.bands(i).into_par_iter().map(|rows| render_band(world, plan, &maps, &rows, seed, i, cancel));
     let bands: Vec<Iteration> = bands.collect::<Option<_>>()?;
     let threads = rayon::current_num_threads() as f64;
-    let pixels = plan.camera.pixel_count();
-    let mut whole = Iteration {
-        photons: Vec::with_capacity(pixels),
-        samples: Vec::with_capacity(pixels),
-        contrasts: Vec::with_capacity(pixels),
-        lobes: Vec::new(),
-        counters,
-        seconds,
-    };
-    for mut band in bands {
-        whole.photons.append(&mut band.photons);
-        whole.samples.append(&mut band.samples);
-        whole.contrasts.append(&mut band.contrasts);
-        whole.lobes.append(&mut band.lobes);
-        whole.counters += band.counters;
-        whole.seconds.camera += band.seconds.camera / threads;
-        whole.seconds.gather += band.seconds.gather / threads;
+    for band in &bands {
+        counters += band.counters;
+        seconds.camera += band.seconds.camera / threads;
+        seconds.gather += band.seconds.gather / threads;
     }
-    timed(&mut whole.seconds.gather, || share_lobes(&whole.lobes, plan.camera.width, &mut whole.photons));
-    for splat in &caustic.splats {
-        whole.photons[splat.pixel as usize] += splat.radiance;
-    }
-    Some(whole)
+    let ((mut photons, samples), contrasts) = rayon::join(
+        || {
+            let mut photons = join(&bands, |band| &band.photons);
+            for splat in &caustic.splats {
+                photons[splat.pixel as usize] += splat.radiance;
+            }
+            (photons, join(&bands, |band| &band.samples))
+        },
+        || join(&bands, |band| &band.contrasts),
+    );
+    let lobes = bands.iter().map(|band| band.lobes.as_slice());
+    timed(&mut seconds.gather, || share_lobes(lobes, plan.camera.width, &mut photons));
+    Some(Iteration { photons, samples, contrasts, lobes: Vec::new(), counters, seconds })
 }
 
 /// What the camera sees in some rows of the film.

@@ -30,8 +30,9 @@ pub enum SessionError {
     },
 }
 
-/// Bytes for each pixel at the busiest moment: the sums, what was measured, an iteration, a frame and what is written to a file.
-const BYTES_PER_PIXEL: u64 = 320;
+/// Bytes for each pixel at the busiest moment: the sums, what was measured, an iteration with lobes that pixels share, a frame and
+/// what is written to a file.
+const BYTES_PER_PIXEL: u64 = 400;
 
 /// Whether there is memory for the film; asked before, because a program that gets none in between is ended.
 fn check_memory(camera: &Camera) -> Result<(), SessionError> {

@@ -89,6 +89,15 @@ impl Cells {
         y as usize * self.columns as usize + x as usize
     }
 
+    /// The pixel of a cell that is measured in an iteration.
+    fn measured(&self, cell: usize, iteration: u64) -> u32 {
+        let (x, y) = (CELL * (cell as u32 % self.columns), CELL * (cell as u32 / self.columns));
+        // At the film's edge a cell may have fewer pixels.
+        let (columns, rows) = (CELL.min(self.width - x), CELL.min(self.height - y));
+        let turn = schedule::refinements_before(iteration) % (columns * rows);
+        (y + turn / columns) * self.width + x + turn % columns
+    }
+
     /// For each cell what the function makes of the values of a square of `2 reach + 1` cells a side, as far as they lie on the
     /// film: of those of each row, and of what it makes of the rows.
     fn of_squares<T: Copy>(
@@ -178,23 +187,20 @@ impl Contrasts {
 
     /// Whether a pixel of a film of this size is the one that is measured in its cell in an iteration.
     pub(super) fn includes([width, height]: [u32; 2], pixel: u32, iteration: u64) -> bool {
-        let (column, row) = (pixel % width, pixel / width);
-        // At the film's edge a cell may have fewer pixels.
-        let side = |at: u32, length: u32| CELL.min(length - at / CELL * CELL);
-        let (columns, rows) = (side(column, width), side(row, height));
-        let turn = schedule::refinements_before(iteration) % (columns * rows);
-        schedule::measures(iteration) && row % CELL * columns + column % CELL == turn
+        let cells = Cells::new(width, height);
+        schedule::measures(iteration) && cells.measured(cells.at(pixel), iteration) == pixel
     }
 
     /// Adds what an iteration measured, a contrast for each pixel of the film.
     pub(super) fn add(&mut self, iteration: u64, contrasts: &[Contrast]) {
-        for (pixel, contrast) in (0..).zip(contrasts) {
-            if Self::includes([self.cells.width, self.cells.height], pixel, iteration) {
-                let cell = self.cells.at(pixel);
-                MapKind::ALL.into_iter().for_each(|kind| self.maps[kind][cell].add(contrast.maps[kind]));
-                *self.maps[MapKind::Caustic][cell].known_noise.get_or_insert(0.0) += f64::from(contrast.caustic_noise);
-                self.picture[cell].add(contrast.picture);
-            }
+        if !schedule::measures(iteration) {
+            return;
+        }
+        for cell in 0..self.cells.count() {
+            let contrast = contrasts[self.cells.measured(cell, iteration) as usize];
+            MapKind::ALL.into_iter().for_each(|kind| self.maps[kind][cell].add(contrast.maps[kind]));
+            *self.maps[MapKind::Caustic][cell].known_noise.get_or_insert(0.0) += f64::from(contrast.caustic_noise);
+            self.picture[cell].add(contrast.picture);
         }
     }
 
@@ -220,11 +226,10 @@ pub struct Bandwidth {
 impl Bandwidth {
     /// The best one for a mean of `total` full iterations, by the contrasts that were measured when the factor of each
     /// cell for each map was what `measured_at` says.
-    fn best(contrasts: &Contrasts, total: f64, measured_at: impl Fn(MapKind, usize) -> f64) -> Self {
+    fn best(contrasts: &Contrasts, total: f64, measured_at: impl Fn(MapKind, usize) -> f64 + Sync) -> Self {
         let cells = contrasts.cells;
-        let factors = PerMap::from_fn(|kind| {
-            best_factors(cells, &contrasts.maps[kind], most_growth(kind), total, |c| measured_at(kind, c))
-        });
+        let of = |kind| best_factors(cells, &contrasts.maps[kind], most_growth(kind), total, |c| measured_at(kind, c));
+        let factors = PerMap::in_parallel(&of);
         let least_caustic = cells.least(&factors[MapKind::Caustic], TRUST_REACH);
         Self { cells, factors, least_caustic }
     }

@@ -24,6 +24,6 @@ pub(super) fn of_photons(paths_by_light: impl Iterator<Item = Range<u64>>) -> Ve
 }
 
 /// What the pieces hold, in their order.
-pub(super) fn join<P, T: Copy>(pieces: &[P], items: impl Fn(&P) -> &Vec<T>) -> Vec<T> {
+pub(crate) fn join<P, T: Copy>(pieces: &[P], items: impl Fn(&P) -> &Vec<T>) -> Vec<T> {
     pieces.iter().map(|piece| items(piece).as_slice()).collect::<Vec<_>>().concat()
 }

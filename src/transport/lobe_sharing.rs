@@ -72,9 +72,10 @@ fn seen_lobe(world: &World, plan: &Plan, point: &VisiblePoint, iteration: u64) -
     })
 }
 
-/// Adds to each pixel of a film of this width the mean of what was found in its lobe and in those of its neighbours.
-pub fn share_lobes(lobes: &[Option<SeenLobe>], width: u32, film: &mut [Rgb]) {
-    let rows = lobes.chunks(width as usize).collect::<Vec<_>>();
+/// Adds to each pixel of a film of this width the mean of what was found in its lobe and in those of its neighbours. The lobes
+/// are those of bands of whole rows.
+pub fn share_lobes<'a>(bands: impl Iterator<Item = &'a [Option<SeenLobe>]>, width: u32, film: &mut [Rgb]) {
+    let rows: Vec<_> = bands.flat_map(|lobes| lobes.chunks(width as usize)).collect();
     film.par_chunks_mut(width as usize).zip(0..rows.len()).for_each(|(film, row)| {
         for (column, lobe) in rows[row].iter().enumerate() {
             if let Some(lobe) = lobe {
@@ -131,7 +132,7 @@ mod tests {
 
     fn shared<const N: usize>(lobes: [Option<SeenLobe>; N], width: u32) -> [f32; N] {
         let mut film = [Rgb::ZERO; N];
-        share_lobes(&lobes, width, &mut film);
+        share_lobes([lobes.as_slice()].into_iter(), width, &mut film);
         film.map(|radiance| radiance.x)
     }
 

@@ -55,6 +55,16 @@ impl<T> PerMap<T> {
     pub fn from_fn(of: impl FnMut(MapKind) -> T) -> Self {
         Self(MapKind::ALL.map(of))
     }
+
+    /// The same, on all threads.
+    pub(super) fn in_parallel(of: &(impl Fn(MapKind) -> T + Sync)) -> Self
+    where
+        T: Send,
+    {
+        let [a, b, c, d] = MapKind::ALL.map(|kind| move || of(kind));
+        let ((a, b), (c, d)) = rayon::join(|| rayon::join(a, b), || rayon::join(c, d));
+        Self([a, b, c, d])
+    }
 }
 
 impl<T> std::ops::Index<MapKind> for PerMap<T> {

@@ -48,6 +48,7 @@ mod tilt;
 mod visibility_polygon;
 
 pub use bandwidth::{Bandwidth, Contrast};
+pub(crate) use blocks::join;
 pub use bsdf::{Fresnel, fresnel};
 pub use camera_pass::{CameraBatch, Facet, VisiblePoint, camera_pass};
 pub use caustic_pass::{CausticBatch, Splat, caustic_photon_pass};

@@ -57,12 +57,11 @@ pub fn global_photon_pass(
             (!cancel.is_cancelled()).then_some(walk.batch)
         })
         .collect::<Option<_>>()?;
-    Some(GlobalBatch {
-        photons: blocks::join(&blocks, |block| &block.photons),
-        focused: blocks::join(&blocks, |block| &block.focused),
-        glossy: blocks::join(&blocks, |block| &block.glossy),
-        counters: blocks.iter().map(|block| block.counters).sum(),
-    })
+    let (photons, (focused, glossy)) = rayon::join(
+        || blocks::join(&blocks, |block| &block.photons),
+        || (blocks::join(&blocks, |block| &block.focused), blocks::join(&blocks, |block| &block.glossy)),
+    );
+    Some(GlobalBatch { photons, focused, glossy, counters: blocks.iter().map(|block| block.counters).sum() })
 }
 
 /// A little before where one path of a light arrives at surfaces that scatter it, from the first one on.

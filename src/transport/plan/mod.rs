@@ -161,14 +161,15 @@ impl Plan {
             return None;
         }
         let next = |pixel| self.camera_samples(pixel, i).end;
-        let samples = self.finds_direct_light.then(|| Arc::new(SampleCounts::best(i, &measured.samples, next)));
-        let bandwidth = self.gathers().then(|| {
+        let samples = || self.finds_direct_light.then(|| Arc::new(SampleCounts::best(i, &measured.samples, next)));
+        let bandwidth = || {
             let total = schedule::size_before(2 * i + 1);
             Arc::new(match &self.bandwidth {
                 None => Bandwidth::first(&measured.contrasts, total, self.shrink(i)),
                 Some(bandwidth) => bandwidth.next(&measured.contrasts, total),
             })
-        });
+        };
+        let (samples, bandwidth) = rayon::join(samples, || self.gathers().then(bandwidth));
         Some(Self { bandwidth, samples, ..self.clone() })
     }
 
