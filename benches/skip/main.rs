@@ -76,6 +76,23 @@ edge_u = [0, 2, 0]
 edge_v = [2, 0, 0]
 "#;
 
+/// Its lobe takes light of bright spots from photons, and neighbours share what they see in it.
+const GLOSSY_FLOOR: &str = r#"
+[[material]]
+name = "gloss"
+type = "phong"
+albedo = [0.4, 0.4, 0.4]
+specular = [0.4, 0.4, 0.4]
+exponent = 20
+[[object]]
+name = "glossy floor"
+type = "quad"
+material = "gloss"
+corner = [-1, -0.99, 1]
+edge_u = [2, 0, 0]
+edge_v = [0, 0, -2]
+"#;
+
 fn world(text: &str) -> World {
     let file = SceneFile::parse(text, Location::Unsaved).expect("the scene is valid");
     prepare(&file.scene, &file.location, None).expect("the scene is whole")
@@ -148,6 +165,15 @@ fn table() {
         plan
     };
     row("interreflection", &floor, &planned(Vec::new()), &planned(paths));
+
+    let glossy = Plan::new(&world(&[&room, GLOSSY_FLOOR].concat()));
+    let planned = |from: &Plan| {
+        let mut plan = Plan::new(&diffuse);
+        plan.lobe_light = from.lobe_light.clone();
+        plan.shares_lobes = from.shares_lobes;
+        plan
+    };
+    row("light in gloss", &diffuse, &planned(&Plan::new(&diffuse)), &planned(&glossy));
 
     let planned = |seen_indirectly: bool| {
         let mut plan = Plan::new(&mirrored);

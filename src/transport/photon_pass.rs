@@ -160,6 +160,7 @@ impl Walk<'_> {
     }
 
     /// Where there is a Phong lobe, leaves what it takes from a photon that is not the camera's.
+    #[inline(never)]
     fn leave_at_lobe(
         &mut self,
         flight: &Flight,

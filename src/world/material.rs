@@ -30,8 +30,12 @@ pub(super) enum Model {
 /// A material with its textures.
 #[derive(Clone, Debug)]
 pub struct Material {
-    pub(super) model: Model,
-    pub(super) relief: Option<Relief>,
+    model: Model,
+    relief: Option<Relief>,
+    /// Of one scattering and normal.
+    lookups: u32,
+    /// What is the same everywhere, where nothing is looked up: most points ask for nothing else.
+    uniform: Option<Scattering>,
 }
 
 /// How one point scatters light: a diffuse part and at most one other.
@@ -90,7 +94,33 @@ impl Source {
     }
 }
 
+impl Model {
+    fn sources(&self) -> [Option<&Source>; 2] {
+        match self {
+            Model::Diffuse { albedo } => [Some(albedo), None],
+            Model::Phong { albedo, specular, .. } => [Some(albedo), Some(specular)],
+            Model::Polished { albedo, reflectance } => [Some(albedo), Some(reflectance)],
+            Model::Mirror { reflectance } => [Some(reflectance), None],
+            Model::Glass { tint, .. } => [Some(tint), None],
+        }
+    }
+}
+
 impl Material {
+    pub(super) fn new(model: Model, relief: Option<Relief>) -> Self {
+        let images = model.sources().into_iter().flatten().filter(|source| source.is_image()).count();
+        let lookups = images as u32 + u32::from(relief.is_some());
+        let mut material = Self { model, relief, lookups, uniform: None };
+        material.uniform = (lookups == 0).then(|| material.scattering(DVec2::ZERO));
+        material
+    }
+
+    /// The scattering where it depends on nothing; `None` where the point matters.
+    #[inline]
+    pub(super) fn uniform(&self) -> Option<Scattering> {
+        self.uniform
+    }
+
     /// The scattering at (u, v).
     pub fn scattering(&self, uv: DVec2) -> Scattering {
         let (albedo, lobe) = match &self.model {
@@ -129,14 +159,9 @@ impl Material {
     }
 
     /// Texture lookups for one scattering and normal.
+    #[inline]
     pub fn lookups(&self) -> u32 {
-        let sources = self.sources().into_iter().flatten().filter(|source| source.is_image()).count();
-        sources as u32 + u32::from(self.relief.is_some())
-    }
-
-    /// Whether anything depends on where on the surface the point is.
-    pub fn needs_parameters(&self) -> bool {
-        self.lookups() > 0
+        self.lookups
     }
 
     /// Whether the normal is tilted by a map.
@@ -173,16 +198,6 @@ impl Material {
     /// Index of refraction of glass, 1 for all else.
     pub fn ior(&self) -> f64 {
         if let Model::Glass { ior, .. } = &self.model { *ior } else { 1.0 }
-    }
-
-    fn sources(&self) -> [Option<&Source>; 2] {
-        match &self.model {
-            Model::Diffuse { albedo } => [Some(albedo), None],
-            Model::Phong { albedo, specular, .. } => [Some(albedo), Some(specular)],
-            Model::Polished { albedo, reflectance } => [Some(albedo), Some(reflectance)],
-            Model::Mirror { reflectance } => [Some(reflectance), None],
-            Model::Glass { tint, .. } => [Some(tint), None],
-        }
     }
 }
 

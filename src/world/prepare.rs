@@ -181,7 +181,7 @@ impl Textures<'_> {
         let user = format!("material `{}`", material.name);
         // What no object shows is never read.
         if !self.scene.objects.iter().any(|object| object.material == material.name) {
-            return Ok(Material { model: Model::Diffuse { albedo: Source::Constant(Rgb::ZERO) }, relief: None });
+            return Ok(Material::new(Model::Diffuse { albedo: Source::Constant(Rgb::ZERO) }, None));
         }
         let mut source = |color: &scene::Color| match color {
             scene::Color::Constant(value) => Ok(Source::Constant(*value)),
@@ -211,7 +211,7 @@ impl Textures<'_> {
                 Some(Relief::Height { image: self.image(map, true, &user)?, scale: map.scale, depth: *depth })
             }
         };
-        Ok(Material { model, relief })
+        Ok(Material::new(model, relief))
     }
 
     fn image(&mut self, texture: &TextureUse, is_map: bool, user: &str) -> Result<Arc<Image>, PrepareError> {

@@ -1,4 +1,4 @@
-use super::{Scattering, World};
+use super::{Material, Scattering, World};
 use crate::geometry::Hit;
 use crate::math::Ray;
 use crate::math::float::SELF_HIT_OFFSET;
@@ -58,11 +58,15 @@ impl World {
     }
 
     /// Scattering and unit shading normal (on the side that the ray came from) of a material at a point.
+    #[inline]
     pub fn scattering(&self, point: &SurfacePoint, material: u32) -> (Scattering, DVec3) {
         let material = &self.materials[material as usize];
-        if !material.needs_parameters() {
-            return (material.scattering(glam::DVec2::ZERO), point.n_side());
-        }
+        material.uniform().map_or_else(|| self.varied(point, material), |scattering| (scattering, point.n_side()))
+    }
+
+    /// The same where textures tell. Apart, so that the loops of scenes without them stay small.
+    #[inline(never)]
+    fn varied(&self, point: &SurfacePoint, material: &Material) -> (Scattering, DVec3) {
         let primitive = &self.aggregate.primitives()[point.hit.primitive as usize];
         let tangents = primitive.tangents(&point.hit, point.n_geom);
         let n_front = material.shading_normal(point.n_geom, &tangents);

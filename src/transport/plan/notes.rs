@@ -53,7 +53,7 @@ impl Notes {
     }
 
     pub(super) fn textures(&mut self, world: &World) {
-        match world.materials.iter().filter(|m| m.needs_parameters()).count() {
+        match world.materials.iter().filter(|m| m.lookups() > 0).count() {
             0 => self.skip("textures", "no visible material has one: surface parameters are never computed"),
             1 => self.render("textures", "1 material reads them".to_owned()),
             textured => self.render("textures", format!("{textured} materials read them")),
