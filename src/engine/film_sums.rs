@@ -24,8 +24,9 @@ pub struct FilmSums {
     halves: Option<Differences>,
 }
 
-/// The others tell the noise once they weigh this part of the first ones: fewer are too unlike their mean.
-const LEAST_PART: f64 = 0.5;
+/// The others tell nothing of the noise as long as they weigh less than the first of these parts of the first ones, which are too
+/// few to be like their mean, and all of it from the second part on.
+const TELLING_PARTS: [f64; 2] = [0.25, 0.75];
 
 /// By how much the first iterations and the others differ.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,11 +161,12 @@ impl FilmSums {
     /// [`Self::ESTIMATED_FROM`] iterations and for a black picture.
     pub fn error_estimate(&self, squared_bias: f64) -> Option<f64> {
         let halves = self.halves.as_ref()?;
-        let squared_noise = if self.weight - self.first_weight < LEAST_PART * self.first_weight {
-            halves.squared_noise * self.first_weight / self.weight
-        } else {
-            self.differences()?.squared_noise
-        };
+        let [least, most] = TELLING_PARTS;
+        let part = (self.weight - self.first_weight) / self.first_weight;
+        let trust = ((part - least) / (most - least)).clamp(0.0, 1.0);
+        let before = halves.squared_noise * self.first_weight / self.weight;
+        let now = if trust > 0.0 { self.differences()?.squared_noise } else { 0.0 };
+        let squared_noise = (1.0 - trust) * before + trust * now;
         let total: f64 = self.all.iter().map(|all| all.radiance(self.weight).element_sum()).sum();
         let mean = total / (3.0 * self.all.len() as f64);
         (mean > 0.0).then(|| (squared_noise + squared_bias).sqrt() / mean)
