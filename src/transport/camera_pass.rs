@@ -66,6 +66,8 @@ pub struct VisiblePoint {
     pub facets: u32,
     /// Whether nothing is between it and the camera.
     pub seen_directly: bool,
+    /// Whether paths of its pixel met different surfaces first, or one and none.
+    pub on_an_edge: bool,
     /// How far a Phong lobe that it is seen in scatters the places that are seen there, scene units; 0 if there is none.
     pub blur: f32,
 }
@@ -270,6 +272,7 @@ impl Walk<'_> {
     fn end_points(&mut self, first_point: usize, on_an_edge: bool) {
         for k in (first_point..self.batch.visible_points.len()).rev() {
             let point = &mut self.batch.visible_points[k];
+            point.on_an_edge = on_an_edge;
             if point.seen_directly && !on_an_edge {
                 let alike = self.facets.iter().filter(|facet| facet.tag == point.tag);
                 let (count, sum) =
@@ -377,6 +380,7 @@ impl Walk<'_> {
             first_facet: 0,
             facets: 0,
             seen_directly: branch.bounces == 0,
+            on_an_edge: false,
             blur: branch.seen_in.map_or(0.0, |lobe| lobe.blur(branch.distance) as f32),
         }
     }

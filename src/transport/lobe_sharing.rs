@@ -1,7 +1,7 @@
 //! What a Phong lobe shows is found along one path from each pixel in each iteration, and chance says where that goes. Neighbours
 //! see much the same in their lobes: so each takes the mean of what all of them found. They are nearer than the lobe blurs even
-//! the nearest object, and how near shrinks from iteration to iteration as the discs of density estimates do, so that the blur
-//! that this adds vanishes.
+//! the nearest object, and their normals differ little. How near they are shrinks from iteration to iteration as the discs of
+//! density estimates do, so that the blur that this adds vanishes.
 
 use super::Rows;
 use super::camera_pass::VisiblePoint;
@@ -31,8 +31,8 @@ pub struct SeenLobe {
     window: u32,
 }
 
-/// The lobes that pixels of some rows share, row by row, nothing found in them yet. None at edges, where a surface has textures
-/// and where neighbours are too far; an empty list if no surface has a lobe that could be shared.
+/// The lobes that pixels of some rows share, row by row, nothing found in them yet. None at edges, where a surface has textures,
+/// on patches, whose own curves are near, and where neighbours are too far; an empty list if no surface has a lobe that could be shared.
 pub fn seen_lobes(
     world: &World,
     plan: &Plan,
@@ -45,11 +45,8 @@ pub fn seen_lobes(
     }
     let width = plan.camera.width;
     let mut lobes = vec![None; rows.len() * width as usize];
-    let mut last = None;
-    for point in points.iter().filter(|point| point.seen_directly) {
-        let is_only = last.replace(point.pixel) != Some(point.pixel);
-        let place = (point.pixel - rows.start * width) as usize;
-        lobes[place] = if is_only { seen_lobe(world, plan, point, iteration) } else { None };
+    for point in points.iter().filter(|point| point.seen_directly && !point.on_an_edge) {
+        lobes[(point.pixel - rows.start * width) as usize] = seen_lobe(world, plan, point, iteration);
     }
     lobes
 }

@@ -198,6 +198,7 @@ mod tests {
             first_facet: 0,
             facets: 0,
             seen_directly: true,
+            on_an_edge: false,
             blur: 0.0,
         }
     }

@@ -2,6 +2,9 @@
 
 use crate::closed_forms::session_of_seed;
 use glam::{DVec2, DVec3};
+use patchlight::scene::Location;
+use patchlight::transport::{Cancel, Plan, camera_pass, seen_lobes};
+use patchlight::world::prepare;
 use std::f64::consts::{PI, TAU};
 
 /// Half a side of the square spot about (2, 1.2, 0), which looks to -x.
@@ -105,4 +108,23 @@ fn neighbours_share_what_their_lobes_show() {
     let errors = [1, 2, 3].map(error);
     // Of what each finds alone it is 0.0106 or more.
     assert!(errors.iter().all(|&error| error < 0.0095), "{errors:?}");
+}
+
+/// A pixel that shows the glossy floor and what is behind it finds little in the floor's lobe: neighbours get none of that, and it none
+/// of theirs.
+#[test]
+fn edges_share_no_lobes() {
+    let text = scene(2).replace("fov_y = 20", "fov_y = 60");
+    let world =
+        prepare(&crate::closed_forms::scene(&text).scene, &Location::Unsaved, None).expect("it can be prepared");
+    let plan = Plan::new(&world);
+    let rows = 0..SIZE;
+    let seen = camera_pass(&world, &plan, &rows, 1, 4, Cancel::NEVER).expect("never cancelled");
+    let lobes = seen_lobes(&world, &plan, &seen.visible_points, &rows, 4);
+    let met =
+        |pixel: usize| seen.visible_points.iter().filter(|p| p.pixel as usize == pixel && p.seen_directly).count();
+    let edges: Vec<usize> = (0..lobes.len()).filter(|&k| seen.samples[k].is_varied).collect();
+    assert!(edges.iter().any(|&k| met(k) == 1), "one of its paths met the floor, the others nothing");
+    assert!(edges.iter().all(|&k| lobes[k].is_none()), "lobes are shared at edges");
+    assert!(lobes.iter().flatten().count() > lobes.len() / 8, "lobes are shared elsewhere");
 }
