@@ -17,8 +17,6 @@ pub(super) struct Iteration {
     pub(super) samples: Vec<PixelSamples>,
     /// For each pixel, of [`gather`].
     pub(super) contrasts: Vec<Contrast>,
-    /// For each pixel of a band what it shares with others: see [`seen_lobes`].
-    lobes: Vec<Option<SeenLobe>>,
     pub(super) counters: Counters,
     pub(super) seconds: PassSeconds,
 }
@@ -49,26 +47,33 @@ pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, ca
     counters.map_builds += built as u64;
 
     let bands = plan.bands(i).into_par_iter().map(|rows| render_band(world, plan, &maps, &rows, seed, i, cancel));
-    let bands: Vec<Iteration> = bands.collect::<Option<_>>()?;
+    let bands: Vec<Band> = bands.collect::<Option<_>>()?;
     let threads = rayon::current_num_threads() as f64;
-    for band in &bands {
+    for Band { iteration: band, .. } in &bands {
         counters += band.counters;
         seconds.camera += band.seconds.camera / threads;
         seconds.gather += band.seconds.gather / threads;
     }
     let ((mut photons, samples), contrasts) = rayon::join(
         || {
-            let mut photons = join(&bands, |band| &band.photons);
+            let mut photons = join(&bands, |band| &band.iteration.photons);
             for splat in &caustic.splats {
                 photons[splat.pixel as usize] += splat.radiance;
             }
-            (photons, join(&bands, |band| &band.samples))
+            (photons, join(&bands, |band| &band.iteration.samples))
         },
-        || join(&bands, |band| &band.contrasts),
+        || join(&bands, |band| &band.iteration.contrasts),
     );
     let lobes = bands.iter().map(|band| band.lobes.as_slice());
     timed(&mut seconds.gather, || share_lobes(lobes, plan.camera.width, &mut photons));
-    Some(Iteration { photons, samples, contrasts, lobes: Vec::new(), counters, seconds })
+    Some(Iteration { photons, samples, contrasts, counters, seconds })
+}
+
+/// An iteration for some rows of the film, but for what their pixels share.
+struct Band {
+    iteration: Iteration,
+    /// See [`seen_lobes`].
+    lobes: Vec<Option<SeenLobe>>,
 }
 
 /// What the camera sees in some rows of the film.
@@ -80,7 +85,7 @@ fn render_band(
     seed: u64,
     i: u64,
     cancel: Cancel,
-) -> Option<Iteration> {
+) -> Option<Band> {
     let mut seconds = PassSeconds::default();
     let seen = timed(&mut seconds.camera, || camera_pass(world, plan, rows, seed, i, cancel))?;
     let (gathered, mut counters) = timed(&mut seconds.gather, || gather(world, plan, maps, &seen, i, cancel))?;
@@ -96,7 +101,8 @@ fn render_band(
             _ => photons[place] += found.radiance,
         }
     }
-    Some(Iteration { photons, samples: seen.samples, contrasts, lobes, counters, seconds })
+    let iteration = Iteration { photons, samples: seen.samples, contrasts, counters, seconds };
+    Some(Band { iteration, lobes })
 }
 
 /// Runs a pass and adds its wall-clock time.

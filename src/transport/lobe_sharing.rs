@@ -7,8 +7,8 @@ use super::Rows;
 use super::camera_pass::VisiblePoint;
 use super::plan::Plan;
 use crate::math::Rgb;
-use crate::world::{Lobe, World};
-use glam::{DVec2, Vec3};
+use crate::world::{Lobe, Material, World};
+use glam::Vec3;
 use rayon::prelude::*;
 
 /// The least cosine between normals of neighbours that share: 2.5 degrees.
@@ -32,7 +32,8 @@ pub struct SeenLobe {
 }
 
 /// The lobes that pixels of some rows share, row by row, nothing found in them yet. None at edges, where a surface has textures,
-/// on patches, whose own curves are near, and where neighbours are too far; an empty list if no surface has a lobe that could be shared.
+/// on patches, whose own curves are near, and where neighbours are too far; an empty list if nothing is gathered or no surface
+/// has a lobe that could be shared.
 pub fn seen_lobes(
     world: &World,
     plan: &Plan,
@@ -40,7 +41,7 @@ pub fn seen_lobes(
     rows: &Rows,
     iteration: u64,
 ) -> Vec<Option<SeenLobe>> {
-    if !plan.shares_lobes {
+    if !(plan.shares_lobes && plan.gathers()) {
         return Vec::new();
     }
     let width = plan.camera.width;
@@ -111,9 +112,8 @@ impl SeenLobe {
 impl World {
     /// Whether all points of a primitive have the same lobe, which neighbours may share.
     pub(super) fn may_share_lobes(&self, primitive: u32) -> bool {
-        self.material_of(primitive).is_some_and(|material| {
-            material.lookups() == 0 && matches!(material.scattering(DVec2::ZERO).lobe, Lobe::Phong { .. })
-        })
+        let uniform = self.material_of(primitive).and_then(Material::uniform);
+        uniform.is_some_and(|scattering| matches!(scattering.lobe, Lobe::Phong { .. }))
     }
 }
 

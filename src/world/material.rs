@@ -117,7 +117,7 @@ impl Material {
 
     /// The scattering where it depends on nothing; `None` where the point matters.
     #[inline]
-    pub(super) fn uniform(&self) -> Option<Scattering> {
+    pub fn uniform(&self) -> Option<Scattering> {
         self.uniform
     }
 

@@ -110,8 +110,8 @@ fn neighbours_share_what_their_lobes_show() {
     assert!(errors.iter().all(|&error| error < 0.0095), "{errors:?}");
 }
 
-/// A pixel that shows the glossy floor and what is behind it finds little in the floor's lobe: neighbours get none of that, and it none
-/// of theirs.
+/// A pixel that shows the glossy floor and what is behind it finds little in the floor's lobe: neighbours get none of that, and
+/// it none of theirs.
 #[test]
 fn edges_share_no_lobes() {
     let text = scene(2).replace("fov_y = 20", "fov_y = 60");
