@@ -5,16 +5,16 @@
 
 mod aabb;
 pub mod float;
-mod frame;
 pub mod lanes;
 pub mod octahedral;
+mod orthonormal_basis;
 mod ray;
 pub mod sobol;
 pub mod warp;
 
 pub use aabb::Aabb;
-pub use frame::Frame;
 pub use lanes::{LANES, Lanes};
+pub use orthonormal_basis::OrthonormalBasis;
 pub use ray::Ray;
 pub use sobol::{Sampler, Stream};
 

@@ -1,6 +1,6 @@
 //! Reflection and refraction at one point. Directions point away from the surface.
 
-use crate::math::{Frame, Rgb, warp};
+use crate::math::{OrthonormalBasis, Rgb, warp};
 use crate::world::{Lobe, Scattering};
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
@@ -109,7 +109,7 @@ pub(super) fn sample_glossy(
     u: DVec2,
 ) -> Option<(DVec3, Rgb)> {
     let Lobe::Phong { specular, exponent } = scattering.lobe else { return None };
-    let axis = Frame::from_normal(reflect(wo, n_shade));
+    let axis = OrthonormalBasis::from_normal(reflect(wo, n_shade));
     let wi = axis.world_from_local(warp::cosine_power(u, exponent));
     let cos = wi.dot(n_shade);
     let weight = specular * ((exponent + 2.0) / (exponent + 1.0) * cos) as f32;

@@ -6,7 +6,7 @@ use super::emission;
 use super::lobe_light::LobeView;
 use super::plan::Plan;
 use crate::geometry::Sphere;
-use crate::math::{Frame, Ray, Rgb, Sampler, warp};
+use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
 use crate::world::{Light, Scattering, SurfacePoint, World};
 use glam::DVec3;
 
@@ -126,7 +126,8 @@ fn sample_light(world: &World, light: &Light, from: DVec3, sampler: &mut Sampler
         Light::Sphere { sphere, radiance } => {
             let one_minus_cos = subtended(sphere, from)?;
             let axis = (sphere.center - from).try_normalize()?;
-            let wi = Frame::from_normal(axis).world_from_local(warp::uniform_cone(sampler.next_2d(), one_minus_cos));
+            let wi = OrthonormalBasis::from_normal(axis)
+                .world_from_local(warp::uniform_cone(sampler.next_2d(), one_minus_cos));
             let t = sphere.intersect(&Ray::new(from, wi)).unwrap_or_else(|| (sphere.center - from).dot(wi));
             let pdf = warp::pdf_uniform_cone(one_minus_cos);
             Some(LightSample { position: from + t * wi, wi, weight: *radiance / pdf as f32, pdf: Some(pdf) })

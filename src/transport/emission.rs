@@ -1,7 +1,7 @@
 //! Light that leaves a light.
 
 use super::guide::Guide;
-use crate::math::{Frame, Rgb, Sampler, octahedral, warp};
+use crate::math::{OrthonormalBasis, Rgb, Sampler, octahedral, warp};
 use crate::world::Light;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -56,7 +56,7 @@ pub(super) fn emit(light: &Light, sampler: &mut Sampler) -> Emission {
             Emission { origin: position, direction, flux: strength * (4.0 * PI) as f32 }
         }
         Some(normal) => {
-            let direction = Frame::from_normal(normal).world_from_local(warp::cosine_hemisphere(u));
+            let direction = OrthonormalBasis::from_normal(normal).world_from_local(warp::cosine_hemisphere(u));
             Emission { origin: position, direction, flux: strength * PI as f32 }
         }
     }

@@ -9,7 +9,7 @@ use super::medium::Media;
 use super::photon::Photon;
 use super::plan::Plan;
 use super::{Cancel, blocks};
-use crate::math::{Frame, Ray, Rgb, Sampler, Stream, warp};
+use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, Stream, warp};
 use crate::world::{Lobe, Scattering, Surface, SurfacePoint, World};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -203,7 +203,7 @@ fn scatter(
     if choice < diffuse {
         flight.flux *= scattering.albedo / diffuse as f32;
         flight.was_scattered = true;
-        let direction = Frame::from_normal(n_shade).world_from_local(warp::cosine_hemisphere(u));
+        let direction = OrthonormalBasis::from_normal(n_shade).world_from_local(warp::cosine_hemisphere(u));
         let factor = shading_factor(wi, direction, n_side, n_shade);
         flight.flux *= factor as f32;
         return (factor > 0.0).then_some(direction);

@@ -1,6 +1,6 @@
 use super::Image;
 use crate::geometry::Tangents;
-use crate::math::{Frame, Rgb};
+use crate::math::{OrthonormalBasis, Rgb};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -144,7 +144,7 @@ impl Material {
             Some(Relief::Normal { image, scale, strength }) => {
                 let texel = 2.0 * image.sample(tangents.uv * *scale).as_dvec3() - 1.0;
                 let local = DVec3::new(texel.x * strength, texel.y * strength, texel.z);
-                Frame::from_derivatives(n_geom, tangents.dpdu, tangents.dpdv).world_from_local(local)
+                OrthonormalBasis::from_derivatives(n_geom, tangents.dpdu, tangents.dpdv).world_from_local(local)
             }
             Some(Relief::Height { image, scale, depth }) => {
                 let slope = image.gradient(tangents.uv * *scale) * *scale * *depth;

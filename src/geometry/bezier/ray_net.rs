@@ -4,7 +4,7 @@ use super::newton::Domain;
 use super::row::{Range, Row, Rows};
 use super::row_net::RowNet;
 use super::unit::UnitRay;
-use crate::math::Frame;
+use crate::math::OrthonormalBasis;
 use glam::{DVec2, DVec3};
 
 /// Rounding of coordinates in unit space is below this.
@@ -33,8 +33,8 @@ impl RayNet {
     /// The net of a patch, given in unit space, along a ray.
     #[inline(always)]
     pub(super) fn new(net: &RowNet, ray: &UnitRay) -> Self {
-        let frame = Frame::from_normal(ray.direction);
-        Self(net.in_coordinates([frame.tangent, frame.bitangent, frame.normal], ray.origin))
+        let basis = OrthonormalBasis::from_normal(ray.direction);
+        Self(net.in_coordinates([basis.tangent, basis.bitangent, basis.normal], ray.origin))
     }
 
     /// The net of a part.

@@ -1,7 +1,7 @@
 //! Differential geometry of a patch: fundamental forms, curvature, the change of the normal, area.
 
 use super::{ControlNet, Derivatives};
-use crate::math::Frame;
+use crate::math::OrthonormalBasis;
 use glam::DVec3;
 
 /// How a surface bends at a point, with respect to its unit normal `dS/du x dS/dv`.
@@ -37,8 +37,8 @@ impl Derivatives {
     }
 
     /// The frame with this unit normal, usually the patch's own or a shading normal, and its tangent along `dS/du`.
-    pub fn frame(&self, normal: DVec3) -> Frame {
-        Frame::from_derivatives(normal, self.dpdu, self.dpdv)
+    pub fn frame(&self, normal: DVec3) -> OrthonormalBasis {
+        OrthonormalBasis::from_derivatives(normal, self.dpdu, self.dpdv)
     }
 }
 

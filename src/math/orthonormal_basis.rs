@@ -2,7 +2,7 @@ use glam::DVec3;
 
 /// An orthonormal basis around a normal: local x, y, z are `tangent`, `bitangent`, `normal`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct OrthonormalBasis {
     /// Local x, unit length.
     pub tangent: DVec3,
     /// Local y, unit length.
@@ -11,8 +11,8 @@ pub struct Frame {
     pub normal: DVec3,
 }
 
-impl Frame {
-    /// Some frame with this unit normal: without branches on its direction, hence without poles \[Duff17\].
+impl OrthonormalBasis {
+    /// A basis with this unit normal: without branches on its direction, hence without poles \[Duff17\].
     pub fn from_normal(normal: DVec3) -> Self {
         let sign = 1f64.copysign(normal.z);
         let a = -1.0 / (sign + normal.z);
@@ -24,8 +24,8 @@ impl Frame {
         }
     }
 
-    /// The frame with this unit normal whose tangent lies along `dpdu`, made orthogonal to the normal, and whose
-    /// bitangent lies on the side of `dpdv`. Falls back to [`Frame::from_normal`] where `dpdu` has no direction
+    /// The basis with this unit normal whose tangent lies along `dpdu`, made orthogonal to the normal, and whose
+    /// bitangent lies on the side of `dpdv`. Falls back to [`OrthonormalBasis::from_normal`] where `dpdu` has no direction
     /// across the normal.
     pub fn from_derivatives(normal: DVec3, dpdu: DVec3, dpdv: DVec3) -> Self {
         let across = dpdu - normal * normal.dot(dpdu);
