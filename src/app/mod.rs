@@ -1,41 +1,34 @@
 //! The window: shows the scene while it converges and lets the user change it.
 //!
-//! Frames come in from the engine, commands go out to it. Within, panels and canvas read the [`document`] and push
-//! [`command`]s; [`apply`] alone carries them out. What is geometry ([`projection`], [`view`], [`handles`], [`drag`],
-//! [`picking`]) knows no widget; [`display`] turns linear light into pixels off the UI thread.
+//! Frames come in from the engine, commands go out to it. Panels, canvas and menus read the document and push
+//! commands; the editor alone carries them out.
+//!
+//! A room uses only rooms above it in this table.
+//!
+//! | room | holds |
+//! |---|---|
+//! | [`theme`] | every colour of the window |
+//! | [`document`] | the edited scene: selection, handles, edits, undo |
+//! | [`commands`] | every request of the user, as data |
+//! | [`rendering`] | the engine's newest frame, and the texture that shows it |
+//! | [`canvas`] | the picture with its handles: zoom, pick, drag |
+//! | [`panels`] | the side panels: outline, properties, progress |
+//! | [`files`] | file dialogs, typed paths, exports |
+//! | [`shell`] | menu bar, status bar, notices, dialogs |
+//! | [`editor`] | the state of all rooms above, the one `apply`, the layout |
+//! | [`window`] | the editor in a window of the desktop, with an engine |
+//! | [`startup`] | from a scene to an open window, or to a clear message |
 
-mod action;
-mod apply;
 mod canvas;
-mod chooser;
-mod command;
-mod dialogs;
-mod display;
+mod commands;
 mod document;
-mod drag;
-mod edit;
 mod editor;
-mod export;
 mod files;
-mod handles;
-mod history;
-mod menu;
-mod new_items;
-mod notices;
-mod overlay;
 mod panels;
-mod path_field;
-mod picking;
-mod projection;
 mod rendering;
-mod selection;
+mod shell;
 mod startup;
-mod status_bar;
 mod theme;
-mod view;
 mod window;
-
-#[cfg(test)]
-mod tests;
 
 pub use startup::{AppError, run};

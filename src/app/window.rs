@@ -1,8 +1,8 @@
 //! The editor in a window of the desktop, with an engine.
 
-use super::command::{AppCommand, Next};
-use super::editor::Editor;
-use super::theme;
+use crate::app::commands::{AppCommand, Next};
+use crate::app::editor::Editor;
+use crate::app::theme;
 use crate::engine::{Engine, EngineError, EngineSettings};
 use crate::scene::SceneFile;
 use eframe::{App, CreationContext, Frame};

@@ -2,10 +2,8 @@
 
 use super::fields::{Number, vector};
 use super::properties::length_speed;
-use crate::app::command::AppCommand;
-use crate::app::document::Document;
-use crate::app::edit::Edit;
-use crate::app::selection::{PointIndex, Selection};
+use crate::app::commands::AppCommand;
+use crate::app::document::{Document, Edit, PointIndex, Selection};
 use crate::geometry::bezier::ControlNet;
 use crate::scene::{Bezier, Shape};
 use egui::{Button, DragValue, Grid, Ui};

@@ -3,10 +3,8 @@
 use super::fields::{Number, kind_row, number_row, rows, strength_row, text_row, vector_row};
 use super::outline::emitter_kind;
 use super::properties::length_speed;
-use crate::app::command::AppCommand;
-use crate::app::document::Document;
-use crate::app::edit::Edit;
-use crate::app::new_items;
+use crate::app::commands::AppCommand;
+use crate::app::document::{Document, Edit, new_items};
 use crate::scene::{Emitter, Light};
 use egui::Ui;
 

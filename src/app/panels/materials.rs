@@ -1,11 +1,9 @@
 //! The numbers of a material.
 
-use super::fields::{Number, choice_row, color_row, kind_row, number, number_row, rows, text_row};
+use super::fields::{Number, choice_row, color, color_row, kind_row, number, number_row, rows, text_row};
 use super::outline::model_kind;
-use crate::app::command::AppCommand;
-use crate::app::document::Document;
-use crate::app::edit::Edit;
-use crate::app::new_items;
+use crate::app::commands::AppCommand;
+use crate::app::document::{Document, Edit, new_items};
 use crate::math::Rgb;
 use crate::scene::{Color, Material, MaterialModel, Relief, Scene, TextureUse};
 use egui::Ui;
@@ -68,7 +66,7 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
             number_row(ui, "Refraction", ior, &spec);
             surface_color_ui(ui, "Tint", tint, scene);
             ui.label("Absorption").on_hover_text("Per scene unit of the way inside");
-            ui.horizontal(|ui| super::fields::color(ui, "Absorption", absorption, &Number::positive(0.01)));
+            ui.horizontal(|ui| color(ui, "Absorption", absorption, &Number::positive(0.01)));
             ui.end_row();
         }
     }

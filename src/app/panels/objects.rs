@@ -1,13 +1,12 @@
 //! The numbers of an object.
 
 use super::control_points::control_points_ui;
-use super::fields::{Number, choice_row, rows, text_row, vector_row};
+use super::fields::{Number, choice_row, number_row, rows, text_row, vector_row};
 use super::materials::{Naming, material_ui};
 use super::outline::shape_kind;
 use super::properties::length_speed;
-use crate::app::command::AppCommand;
-use crate::app::document::Document;
-use crate::app::edit::Edit;
+use crate::app::commands::AppCommand;
+use crate::app::document::{Document, Edit};
 use crate::scene::{Object, Shape, Transform};
 use egui::{CollapsingHeader, Ui};
 use glam::DVec3;
@@ -57,7 +56,7 @@ fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {
         }
         Shape::Sphere { center, radius } => {
             vector_row(ui, "Centre", center, &length);
-            super::fields::number_row(ui, "Radius", radius, &Number::positive(speed));
+            number_row(ui, "Radius", radius, &Number::positive(speed));
         }
         Shape::Plane { point, normal, u_axis } => {
             vector_row(ui, "Point", point, &length);

@@ -1,12 +1,8 @@
 //! The list of everything in the scene.
 
-use crate::app::action::Action;
-use crate::app::chooser::Purpose;
-use crate::app::command::AppCommand;
-use crate::app::document::Document;
-use crate::app::edit::Edit;
-use crate::app::new_items;
-use crate::app::selection::{Item, Selection};
+use crate::app::commands::{Action, AppCommand};
+use crate::app::document::{Document, Edit, Item, Selection, new_items};
+use crate::app::files::Purpose;
 use crate::scene::{Emitter, Encoding, MaterialModel, Shape};
 use egui::{Align, Button, CollapsingHeader, Layout, Ui, UiBuilder};
 

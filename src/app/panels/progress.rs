@@ -3,9 +3,8 @@
 use super::fields::rows;
 use super::plan::plan_ui;
 use super::settings::display_rows;
-use crate::app::command::AppCommand;
-use crate::app::document::Document;
-use crate::app::edit::Edit;
+use crate::app::commands::AppCommand;
+use crate::app::document::{Document, Edit};
 use crate::app::rendering::Rendering;
 use crate::app::theme;
 use crate::engine::{PassSeconds, Stats};

@@ -1,9 +1,8 @@
 //! The numbers of what is selected.
 
 use super::{lights, materials, objects, settings, textures};
-use crate::app::command::AppCommand;
-use crate::app::document::Document;
-use crate::app::selection::Item;
+use crate::app::commands::AppCommand;
+use crate::app::document::{Document, Item};
 use egui::Ui;
 
 /// A sensible step for lengths: a thousandth of the distance between the eye and what it looks at.

@@ -2,9 +2,8 @@
 
 use super::fields::{Number, color, number_row, rows, text_row, vector_row};
 use super::properties::length_speed;
-use crate::app::command::AppCommand;
-use crate::app::document::Document;
-use crate::app::edit::Edit;
+use crate::app::commands::AppCommand;
+use crate::app::document::{Document, Edit};
 use crate::scene::{Film, Render, ToneCurve};
 use egui::{ComboBox, DragValue, Slider, Ui};
 

@@ -1,8 +1,8 @@
 //! The file of a texture.
 
 use super::fields::{rows, text_row};
-use crate::app::command::AppCommand;
-use crate::app::edit::Edit;
+use crate::app::commands::AppCommand;
+use crate::app::document::Edit;
 use crate::scene::{Encoding, Texture};
 use egui::Ui;
 

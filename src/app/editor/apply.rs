@@ -1,15 +1,11 @@
 //! The one place where commands are carried out.
 
-use super::action::Action;
-use super::chooser::Purpose;
-use super::command::{Answer, AppCommand, Next};
-use super::dialogs::Dialog;
-use super::edit::{Edit, user_of};
-use super::editor::Editor;
-use super::new_items;
-use super::path_field::PathField;
-use super::selection::{Item, Selection};
-use super::view::View;
+use super::state::Editor;
+use crate::app::canvas::View;
+use crate::app::commands::{Action, Answer, AppCommand, Next};
+use crate::app::document::{Edit, Item, Selection, new_items, user_of};
+use crate::app::files::{PathField, Purpose};
+use crate::app::shell::Dialog;
 use crate::engine;
 use crate::scene::{Location, SceneFile};
 use egui::{Context, ViewportCommand};

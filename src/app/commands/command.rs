@@ -1,9 +1,8 @@
-//! Everything that panels, canvas, menus and keys ask for. [`Editor::apply`](super::editor::Editor) alone does it.
+//! Everything that panels, canvas, menus and keys ask for. [`Editor::apply`](crate::app::editor::Editor) alone does it.
 
 use super::action::Action;
-use super::chooser::Purpose;
-use super::edit::Edit;
-use super::selection::Selection;
+use crate::app::document::{Edit, Selection};
+use crate::app::files::Purpose;
 use egui::ThemePreference;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

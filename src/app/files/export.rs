@@ -1,8 +1,8 @@
 //! Writing the picture and the surface, off the UI thread.
 
 use super::chooser::Purpose;
-use super::dialogs::Dialog;
-use super::editor::Editor;
+use crate::app::editor::Editor;
+use crate::app::shell::Dialog;
 use crate::engine::Frame;
 use crate::file::write_whole;
 use crate::film::{ToneMap, write_exr, write_png};

@@ -1,9 +1,8 @@
 //! Questions and messages that must be answered before anything else, and files dropped onto the window.
 
-use super::action::Action;
-use super::command::{Answer, AppCommand, Next};
-use super::editor::Editor;
-use super::path_field::PathField;
+use crate::app::commands::{Action, Answer, AppCommand, Next};
+use crate::app::editor::Editor;
+use crate::app::files::PathField;
 use egui::{Context, DragValue, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui};
 use std::num::NonZeroUsize;
 

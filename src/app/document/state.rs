@@ -119,7 +119,7 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::handles::Handle;
+    use crate::app::document::Handle;
     use crate::math::Rgb;
     use crate::scene::{Emitter, Light};
     use glam::DVec3;

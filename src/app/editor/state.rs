@@ -1,18 +1,12 @@
 //! The window's content, without the window and without the engine: frames come in, commands go out.
 
-use super::action;
-use super::canvas::{Canvas, Picture};
-use super::chooser::Chooser;
-use super::command::{AppCommand, Next};
-use super::dialogs::{self, Dialog};
-use super::display::Display;
-use super::document::Document;
-use super::export::Export;
-use super::menu::menu_ui;
-use super::notices;
-use super::panels::{outline_ui, progress_ui, properties_ui};
-use super::rendering::Rendering;
-use super::status_bar::status_bar_ui;
+use crate::app::canvas::{Canvas, Picture};
+use crate::app::commands::{AppCommand, Next, action};
+use crate::app::document::Document;
+use crate::app::files::{Chooser, Export};
+use crate::app::panels::{outline_ui, progress_ui, properties_ui};
+use crate::app::rendering::{Display, Rendering};
+use crate::app::shell::{self, Dialog, menu_ui, notices_ui, status_bar_ui};
 use crate::engine::{self, Frame, Status};
 use crate::scene::{Problem, SceneFile, validate};
 use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
@@ -99,7 +93,7 @@ impl Editor {
             ui.set_opacity(1.0);
         } else {
             commands.extend(action::pressed(ui.ctx()).into_iter().map(AppCommand::Do));
-            commands.extend(dialogs::dropped_files(ui.ctx()));
+            commands.extend(shell::dropped_files(ui.ctx()));
         }
         Panel::top("menu").show(ui, |ui| menu_ui(ui, self, &mut commands));
         Panel::bottom("status").show(ui, |ui| status_bar_ui(ui, self));
@@ -112,9 +106,9 @@ impl Editor {
             let picture = Picture { texture: self.display.texture(), current };
             self.canvas.show(ui, &self.document, picture, &mut commands);
             // Over the picture, which therefore stays where it is when they come and go.
-            ui.scope_builder(UiBuilder::new().max_rect(canvas), |ui| notices::notices_ui(ui, self, &mut commands));
+            ui.scope_builder(UiBuilder::new().max_rect(canvas), |ui| notices_ui(ui, self, &mut commands));
         });
-        dialogs::dialog_ui(ui.ctx(), self, &mut commands);
+        shell::dialog_ui(ui.ctx(), self, &mut commands);
         self.toasts.show(ui.ctx());
         for command in commands {
             self.apply(ui.ctx(), command);

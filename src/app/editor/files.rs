@@ -1,14 +1,11 @@
 //! Opening, saving and exporting.
 
-use super::action::Action;
-use super::chooser::{Outcome, Purpose, Request};
-use super::dialogs::Dialog;
-use super::document::Document;
-use super::edit::Edit;
-use super::editor::{Editor, same_picture};
-use super::new_items;
-use super::path_field::{PathField, complete};
-use super::view::View;
+use super::state::{Editor, same_picture};
+use crate::app::canvas::View;
+use crate::app::commands::{Action, AppCommand, Next};
+use crate::app::document::{Document, Edit, new_items};
+use crate::app::files::{Outcome, PathField, Purpose, Request, complete};
+use crate::app::shell::Dialog;
 use crate::scene::{SceneError, SceneFile};
 use egui::Context;
 use std::path::{Path, PathBuf};
@@ -93,7 +90,7 @@ impl Editor {
     /// Does what the file was chosen for.
     pub(crate) fn carry_out(&mut self, ctx: &Context, purpose: Purpose, path: PathBuf) {
         match purpose {
-            Purpose::OpenScene => self.apply(ctx, super::command::AppCommand::GoTo(super::command::Next::Open(path))),
+            Purpose::OpenScene => self.apply(ctx, AppCommand::GoTo(Next::Open(path))),
             Purpose::SaveScene => self.save(ctx, path),
             Purpose::ExportPicture => self.start_export(path),
             Purpose::ExportSurface => self.export_surface(ctx, path),

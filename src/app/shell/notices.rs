@@ -1,8 +1,8 @@
 //! What the user must know now, above the picture: why it is not the scene's, what the window waits for.
 
-use super::command::AppCommand;
-use super::editor::Editor;
-use super::theme;
+use crate::app::commands::AppCommand;
+use crate::app::editor::Editor;
+use crate::app::theme;
 use crate::engine::Status;
 use egui::{Color32, Frame, ScrollArea, Ui};
 

@@ -1,16 +1,13 @@
 //! The picture with its handles: looking at it, picking in it, dragging in it.
 
-use super::command::AppCommand;
-use super::document::Document;
 use super::drag::{Constraint, Drag};
-use super::edit::Edit;
-use super::handles::{self, Handle};
 use super::overlay;
 use super::picking;
 use super::projection::Projection;
-use super::selection::{Item, Selection};
-use super::theme;
 use super::view::{Placement, View};
+use crate::app::commands::AppCommand;
+use crate::app::document::{Document, Edit, Handle, Item, Selection, handles};
+use crate::app::theme;
 use egui::{
     Color32, CursorIcon, Key, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
     WidgetInfo,

@@ -6,9 +6,9 @@ mod files;
 mod keys;
 mod panels;
 
-use super::chooser::{Chooser, Request};
-use super::editor::Editor;
-use super::theme;
+use crate::app::editor::Editor;
+use crate::app::files::{Chooser, Request};
+use crate::app::theme;
 use crate::engine::{Command, Counters, Frame, PassSeconds, PlanNote, PlanSummary, Stats, Status};
 use crate::film::LinearImage;
 use crate::math::Rgb;

@@ -1,6 +1,6 @@
 //! What the engine has shown so far.
 
-use super::panels::ErrorCurve;
+use crate::app::panels::ErrorCurve;
 use crate::engine::{Frame, Status};
 use std::sync::Arc;
 

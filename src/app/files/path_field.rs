@@ -1,8 +1,8 @@
 //! A path that is typed: where no file dialog can be had, or where what was chosen did not work.
 
 use super::chooser::{Purpose, Request};
-use super::command::AppCommand;
-use super::theme;
+use crate::app::commands::AppCommand;
+use crate::app::theme;
 use egui::{Button, Id, Key, TextEdit, Ui};
 use std::path::PathBuf;
 

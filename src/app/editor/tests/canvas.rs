@@ -1,8 +1,6 @@
 use super::*;
-use crate::app::handles::Handle;
-use crate::app::projection::Projection;
-use crate::app::selection::{Item, PointIndex};
-use crate::app::view::View;
+use crate::app::canvas::{Projection, View};
+use crate::app::document::{Handle, Item, PointIndex, handles};
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, TouchPhase, Vec2, vec2};
 use glam::DVec3;
 
@@ -132,7 +130,7 @@ fn shared_points_of_patches_move_together() {
     // A corner of the first patch, which its neighbours share.
     let corner = Handle::Point { object, point: PointIndex::default() };
     let start = corner.position(scene(&ui)).unwrap();
-    for handle in crate::app::handles::visible(scene(&ui), Item::Object(object)) {
+    for handle in handles::visible(scene(&ui), Item::Object(object)) {
         before.push((handle, handle.position(scene(&ui)).unwrap()));
     }
     let label = before.iter().find(|(handle, at)| matches!(handle, Handle::Point { .. }) && *at == start).unwrap().0;
@@ -140,7 +138,7 @@ fn shared_points_of_patches_move_together() {
     drag(&mut ui, from, vec2(15.0, -15.0), 2);
     ui.drop_at(from + vec2(15.0, -15.0));
     ui.run_steps(2);
-    let after = crate::app::handles::visible(scene(&ui), Item::Object(object));
+    let after = handles::visible(scene(&ui), Item::Object(object));
     assert_eq!(after.len(), before.len(), "no place came apart");
 }
 

@@ -1,8 +1,7 @@
 //! The menu bar, with the buttons that are needed all the time.
 
-use super::action::Action;
-use super::command::{AppCommand, Next};
-use super::editor::Editor;
+use crate::app::commands::{Action, AppCommand, Next};
+use crate::app::editor::Editor;
 use crate::scene::built_in_scenes;
 use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::app::dialogs::Dialog;
+use crate::app::shell::Dialog;
 use egui::{Key, Modifiers};
 
 fn commands(ui: &mut Ui) -> Vec<&'static str> {

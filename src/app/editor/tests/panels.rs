@@ -1,5 +1,5 @@
 use super::*;
-use crate::app::selection::{Item, Selection};
+use crate::app::document::{Item, Selection};
 use crate::scene::{Color, Emitter, MaterialModel, Shape, built_in_scenes};
 use egui::{Key, Modifiers};
 

@@ -1,7 +1,7 @@
 //! Where a dragged handle goes: in the plane through it that faces the camera, or along one axis. Knows no widget.
 
-use super::handles::Handle;
 use super::projection::Projection;
+use crate::app::document::Handle;
 use glam::{DVec2, DVec3};
 
 /// A view this close to an axis gives no way along it: the cosine squared of about 2 degrees.

@@ -1,9 +1,9 @@
 //! The line at the bottom: what the engine does, what is under the pointer.
 
-use super::editor::Editor;
-use super::panels::{duration, grouped};
-use super::rendering::Rendering;
-use super::theme;
+use crate::app::editor::Editor;
+use crate::app::panels::{duration, grouped};
+use crate::app::rendering::Rendering;
+use crate::app::theme;
 use crate::engine::{Frame, Status};
 use crate::math::Rgb;
 use egui::{Align, Color32, Layout, Ui};

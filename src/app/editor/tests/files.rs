@@ -1,6 +1,6 @@
 use super::*;
-use crate::app::command::{AppCommand, Next};
-use crate::app::dialogs::Dialog;
+use crate::app::commands::{AppCommand, Next};
+use crate::app::shell::Dialog;
 use crate::scene::{Location, Shape};
 use egui::{Key, Modifiers};
 

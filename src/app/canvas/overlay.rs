@@ -1,9 +1,9 @@
 //! How the control net and the handles look.
 
-use super::canvas::{HandlePlace, Stage};
 use super::drag::Constraint;
-use super::handles::Handle;
-use super::theme::{self, overlay};
+use super::widget::{HandlePlace, Stage};
+use crate::app::document::Handle;
+use crate::app::theme::{self, overlay};
 use crate::scene::Bezier;
 use egui::{Color32, Painter, Pos2, Rect, Response, Stroke, StrokeKind, Vec2, vec2};
 

@@ -1,0 +1,22 @@
+//! The canvas: the picture, with handles to select and drag.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `view` | zoom and pan: the map between film pixels and screen points |
+//! | `projection` | the pinhole camera: the map between world space and film pixels |
+//! | `drag` | where a dragged handle goes |
+//! | `picking` | the nearest object under a film point |
+//! | `overlay` | painting of control nets and handles |
+//! | `widget` | [`Canvas`]: pointer and keyboard input on the picture |
+
+mod drag;
+mod overlay;
+mod picking;
+mod projection;
+mod view;
+mod widget;
+
+#[cfg(test)]
+pub(crate) use projection::Projection;
+pub(crate) use view::View;
+pub(crate) use widget::{Canvas, Picture};

@@ -1,0 +1,22 @@
+//! The scene that the user edits.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `selection` | the selected item and control points |
+//! | `handles` | the draggable points of a scene: which exist, where they lie, how they move |
+//! | `edit` | every change of a scene, as data |
+//! | `history` | undo and redo over whole states |
+//! | `new_items` | the objects, lights, materials and textures that "Add", "Duplicate" and "Type" create |
+//! | `state` | [`Document`]: the scene with its file, selection and history |
+
+mod edit;
+pub(crate) mod handles;
+mod history;
+pub(crate) mod new_items;
+mod selection;
+mod state;
+
+pub(crate) use edit::{Edit, user_of};
+pub(crate) use handles::Handle;
+pub(crate) use selection::{Item, PointIndex, Selection};
+pub(crate) use state::Document;
