@@ -3,21 +3,21 @@
 //! Frames come in from the engine, commands go out to it. Panels, canvas and menus read the document and push
 //! commands; the editor alone carries them out.
 //!
-//! A room uses only rooms above it in this table.
+//! A module uses only modules above it in this table.
 //!
-//! | room | holds |
+//! | module | holds |
 //! |---|---|
-//! | [`theme`] | every colour of the window |
-//! | [`document`] | the edited scene: selection, handles, edits, undo |
-//! | [`commands`] | every request of the user, as data |
-//! | [`rendering`] | the engine's newest frame, and the texture that shows it |
-//! | [`canvas`] | the picture with its handles: zoom, pick, drag |
-//! | [`panels`] | the side panels: outline, properties, progress |
-//! | [`files`] | file dialogs, typed paths, exports |
-//! | [`shell`] | menu bar, status bar, notices, dialogs |
-//! | [`editor`] | the state of all rooms above, the one `apply`, the layout |
-//! | [`window`] | the editor in a window of the desktop, with an engine |
-//! | [`startup`] | from a scene to an open window, or to a clear message |
+//! | `theme` | every colour of the window |
+//! | `document` | the edited scene: selection, handles, edits, undo |
+//! | `commands` | every request of the user, as data |
+//! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |
+//! | `canvas` | the picture with its handles: zoom, pick, drag |
+//! | `panels` | the side panels: outline, properties, progress |
+//! | `files` | file dialogs, typed paths, exports |
+//! | `shell` | menu bar, status bar, notices, dialogs |
+//! | `editor` | all that the window shows and remembers, the one `apply`, the layout |
+//! | `window` | the editor in a window of the desktop, with an engine |
+//! | `startup` | from a scene to an open window, or to a clear message |
 
 mod canvas;
 mod commands;

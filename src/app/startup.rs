@@ -1,4 +1,4 @@
-//! From a scene's path to an open window, or to a message that says what is missing.
+//! Opens the window on a scene, or explains why no window can open.
 
 use super::window::Window;
 use crate::engine::EngineError;
@@ -9,39 +9,42 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The Debian packages of the libraries that a window is opened with; they are looked for when the program runs.
+/// The Debian packages of the libraries that a window loads at run time.
 const PACKAGES: &str = "libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libgl1";
 
-/// Why there is no window.
+/// The reason why no window can open.
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
     /// The engine cannot start.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// Nothing shows windows here.
+    /// No display is set.
     #[error(
-        "no window can be opened: there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)\n\
-         With a display elsewhere, log in with `ssh -X`; with none, `apt install xvfb` and `xvfb-run patchlight` try the window out.\n\
+        "no window can be opened: neither DISPLAY nor WAYLAND_DISPLAY is set\n\
+         For a display on another machine, log in with `ssh -X`. Without any display, `apt install xvfb`, then run `xvfb-run patchlight`.\n\
          {render}"
     )]
     NoDisplay {
-        /// What works without a window.
+        /// The command line that renders without a window.
         render: String,
     },
-    /// There is a display, but no window on it.
+    /// The display does not open a window.
     #[error(
-        "no window can be opened: {reason}\nDISPLAY or WAYLAND_DISPLAY has to name a display that answers; \
-         on Debian this installs the libraries that it takes: apt install {PACKAGES}\n{render}"
+        "no window can be opened: {reason}\nDISPLAY or WAYLAND_DISPLAY must name a running display. \
+         On Debian, install the libraries of a window: apt install {PACKAGES}\n{render}"
     )]
     NoWindow {
-        /// What the window system says.
+        /// The window system's message.
         reason: String,
-        /// What works without a window.
+        /// The command line that renders without a window.
         render: String,
     },
 }
 
-/// Opens the window on a scene, and returns when it is closed.
+/// Opens the window on a scene. Returns when the user closes the window.
+///
+/// # Errors
+/// Returns an error when no window can open, or the engine cannot start.
 pub fn run(scene: SceneFile) -> Result<(), AppError> {
     let render = render_line(&scene.location);
     if !has_display() {
@@ -50,9 +53,9 @@ pub fn run(scene: SceneFile) -> Result<(), AppError> {
     open_window(scene, &render)
 }
 
-/// The command that makes the picture without a window.
+/// A sentence with the command line that renders the scene without a window.
 fn render_line(scene: &Location) -> String {
-    format!("Without a window this works at once: patchlight render {} -o picture.png --seconds 10", scene.argument())
+    format!("To render without a window: patchlight render {} -o picture.png --seconds 10", scene.argument())
 }
 
 fn has_display() -> bool {
@@ -87,8 +90,8 @@ fn open_window(file: SceneFile, render: &str) -> Result<(), AppError> {
     quietly_until(&shown, run, |reason| AppError::NoWindow { reason, render: render.to_owned() })
 }
 
-/// Runs `run`. Libraries of the window system that are missing make its crates panic: until `shown` is set a panic is
-/// an error like any other and prints nothing of its own; after that it is a bug and goes on.
+/// Runs `run`. The window system's crates panic when a library is missing, so a panic before `shown` is set becomes an
+/// error and prints nothing. A later panic is a bug and unwinds.
 fn quietly_until(
     shown: &Arc<AtomicBool>,
     run: impl FnOnce() -> Result<(), eframe::Error>,
@@ -112,7 +115,10 @@ fn quietly_until(
     }
 }
 
-/// The engine's own error, if that is what kept the window from opening.
+/// The engine's error, if the engine kept the window from opening.
+///
+/// # Errors
+/// Returns any other error unchanged.
 fn engine_error(error: eframe::Error) -> Result<AppError, eframe::Error> {
     match error {
         eframe::Error::AppCreation(source) => match source.downcast::<EngineError>() {
@@ -123,7 +129,7 @@ fn engine_error(error: eframe::Error) -> Result<AppError, eframe::Error> {
     }
 }
 
-/// The reason without the line of a library's source that some of them put before it.
+/// The reason without the source file and line that some libraries put before it.
 fn plain(reason: &str) -> String {
     let after_line = reason.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
     let sentence = after_line.filter(|(line, _)| line.bytes().all(|byte| byte.is_ascii_digit() || byte == b':'));
@@ -146,11 +152,11 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_of_the_window_system_is_a_message() {
+    fn a_panic_of_the_window_system_becomes_a_message() {
         let message = failed(|| panic!("Library libxkbcommon-x11.so could not be loaded."));
         assert!(message.contains("libxkbcommon-x11.so could not be loaded"), "the reason: {message}");
         assert!(message.contains("apt install") && message.contains("libxkbcommon-x11-0"), "the package: {message}");
-        assert!(message.contains("patchlight render"), "what works at once: {message}");
+        assert!(message.contains("patchlight render"), "the command without a window: {message}");
     }
 
     #[test]
@@ -161,12 +167,12 @@ mod tests {
     }
 
     #[test]
-    fn the_line_that_works_names_the_scene() {
+    fn the_render_command_names_the_scene() {
         let line = render_line(&Location::Disk("a b/c.toml".into()));
         assert!(line.contains("patchlight render 'a b/c.toml' -o"), "{line}");
         assert!(
             render_line(&Location::BuiltIn("water".to_owned())).contains("patchlight render water -o"),
-            "by its name"
+            "by its built-in name"
         );
     }
 }

@@ -3,22 +3,22 @@
 use egui::style::ScrollStyle;
 use egui::{Color32, Context, CornerRadius, Stroke, Theme, Visuals};
 
-/// The colours that egui's own style does not hold.
+/// The colours that egui's style lacks, of one theme.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Palette {
-    /// Round the picture.
+    /// The background of the canvas.
     pub(crate) canvas: Color32,
-    /// The picture's edge.
+    /// The border of the picture.
     pub(crate) frame: Color32,
-    /// Wrong, failed.
+    /// Errors and failures.
     pub(crate) error: Color32,
-    /// Worth a look.
+    /// Warnings, and states that wait.
     pub(crate) warning: Color32,
-    /// Done, rendered.
+    /// Progress and success.
     pub(crate) success: Color32,
-    /// The line in the plot.
+    /// The line of a plot.
     pub(crate) plot: Color32,
-    /// The axes x, y and z.
+    /// The axes x, y and z, and the channels red, green and blue.
     pub(crate) axes: [Color32; 3],
 }
 
@@ -42,15 +42,15 @@ const LIGHT: Palette = Palette {
     axes: [Color32::from_rgb(190, 35, 45), Color32::from_rgb(50, 120, 20), Color32::from_rgb(25, 80, 200)],
 };
 
-/// The colours drawn over the picture; the same in both themes, for the picture is.
+/// The colours drawn over the picture. Both themes share them, because the picture does not depend on the theme.
 pub(crate) mod overlay {
     use egui::Color32;
 
-    /// Under every line and handle, so that they show on white and on black.
+    /// The outline of lines and handles, which keeps them visible on white and on black.
     pub(crate) const OUTLINE: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 170);
-    /// The control net.
+    /// The control net in the side panel.
     pub(crate) const NET: Color32 = Color32::from_rgb(150, 196, 255);
-    /// The control net of the other patches.
+    /// The control nets of all other patches.
     pub(crate) const NET_FAINT: Color32 = Color32::from_rgba_premultiplied(75, 98, 128, 128);
     /// A handle.
     pub(crate) const HANDLE: Color32 = Color32::from_rgb(235, 242, 255);
@@ -58,18 +58,18 @@ pub(crate) mod overlay {
     pub(crate) const HOVERED: Color32 = Color32::from_rgb(255, 226, 120);
     /// A selected handle.
     pub(crate) const SELECTED: Color32 = Color32::from_rgb(255, 150, 40);
-    /// What a picture that is not of the present scene is multiplied by.
+    /// The tint of a picture that does not show the present scene.
     pub(crate) const OUTDATED: Color32 = Color32::from_gray(90);
     /// A light.
     pub(crate) const LIGHT: Color32 = Color32::from_rgb(255, 236, 130);
 }
 
-/// The palette of the theme that is shown.
+/// The palette of the dark or the light theme.
 pub(crate) fn palette(dark_mode: bool) -> &'static Palette {
     if dark_mode { &DARK } else { &LIGHT }
 }
 
-/// Sets both themes.
+/// Installs both themes and the spacing.
 pub(crate) fn install(ctx: &Context) {
     ctx.set_visuals_of(
         Theme::Dark,
@@ -83,7 +83,7 @@ pub(crate) fn install(ctx: &Context) {
         style.spacing.item_spacing = egui::vec2(6.0, 5.0);
         style.spacing.interact_size.y = 20.0;
         style.spacing.slider_width = 130.0;
-        // A bar that hides tells nobody that there is more below.
+        // A hidden scroll bar would not show that more content follows.
         style.spacing.scroll = ScrollStyle::solid();
     });
 }
@@ -96,7 +96,7 @@ fn visuals(mut visuals: Visuals, selected: Color32, on_selected: Color32) -> Vis
     visuals.error_fg_color = palette.error;
     visuals.warn_fg_color = palette.warning;
     if visuals.dark_mode {
-        // egui's own greys stay below the contrast that small text needs on its dark panels.
+        // The default greys of egui have too little contrast for small text on dark panels.
         visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(190);
         visuals.widgets.inactive.fg_stroke.color = Color32::from_gray(210);
         visuals.weak_text_color = Some(Color32::from_gray(150));

@@ -1,4 +1,4 @@
-//! The editor in a window of the desktop, with an engine.
+//! The editor in a desktop window, with an engine.
 
 use crate::app::commands::{AppCommand, Next};
 use crate::app::editor::Editor;
@@ -8,7 +8,7 @@ use crate::scene::SceneFile;
 use eframe::{App, CreationContext, Frame};
 use egui::{Context, Ui, ViewportCommand};
 
-/// The window.
+/// The desktop window: an editor and the engine that renders its scene.
 pub(crate) struct Window {
     editor: Editor,
     engine: Engine,
@@ -16,7 +16,10 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Begins to render at once.
+    /// Starts an engine and sends it the scene.
+    ///
+    /// # Errors
+    /// Returns an error when the engine's thread or thread pool cannot start.
     pub(crate) fn new(creation: &CreationContext<'_>, file: SceneFile) -> Result<Self, EngineError> {
         theme::install(&creation.egui_ctx);
         let ctx = creation.egui_ctx.clone();
@@ -24,11 +27,12 @@ impl Window {
         Ok(Self { editor: Editor::new(file), engine, title: String::new() })
     }
 
+    /// Sends the editor's commands to the engine, and takes the engine's newest frame.
     fn exchange(&mut self) {
-        for command in self.editor.outbox.drain(..) {
+        for command in self.editor.rendering.take_commands() {
             self.engine.send(command);
         }
-        self.editor.receive(self.engine.newest_frame(), self.engine.status());
+        self.editor.rendering.receive(self.engine.newest_frame(), self.engine.status());
     }
 
     fn update_title(&mut self, ctx: &Context) {
@@ -49,7 +53,7 @@ impl App for Window {
             && self.editor.document.is_dirty()
         {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.editor.apply(ctx, AppCommand::GoTo(Next::Quit));
+            self.editor.apply(ctx, AppCommand::Leave(Next::Quit));
         }
     }
 

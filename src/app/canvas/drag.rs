@@ -1,50 +1,50 @@
-//! Where a dragged handle goes: in the plane through it that faces the camera, or along one axis. Knows no widget.
+//! The position of a dragged handle: in the plane through it that faces the camera, or along one axis. Knows no widget.
 
 use super::projection::Projection;
 use crate::app::document::Handle;
 use glam::{DVec2, DVec3};
 
-/// A view this close to an axis gives no way along it: the cosine squared of about 2 degrees.
+/// Squared cosine above which a camera ray counts as parallel to an axis, about 2 degrees: the pointer then gives no
+/// position along the axis.
 const PARALLEL: f64 = 0.999;
 
-/// What a drag is bound to.
+/// The plane or line that a drag moves in.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub(crate) enum Constraint {
     /// The plane through the handle that faces the camera.
     #[default]
     Facing,
-    /// A line through the handle along this unit vector.
+    /// The line through the handle along this unit vector.
     Axis(DVec3),
 }
 
-/// A drag of a handle from its first to its last moment. It depends on where the pointer is, not on how it came
-/// there, so no error accumulates.
+/// A drag of a handle. The handle's position depends on the present pointer position alone, so no error accumulates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Drag {
-    /// What is dragged.
+    /// The dragged handle.
     pub(crate) handle: Handle,
-    /// Where it was.
+    /// The handle's position before the drag, world space.
     start: DVec3,
-    /// From the pointer to the handle as it was grabbed, film pixels.
-    grip: DVec2,
+    /// From the pointer to the handle at the start of the drag, film pixels.
+    grab_offset: DVec2,
 }
 
 impl Drag {
-    /// Begins with the pointer at `pointer`, in film pixels; `None` where the handle is behind the eye.
+    /// Starts a drag with the pointer at `pointer`, film pixels; `None` where the handle is behind the camera.
     pub(crate) fn new(handle: Handle, start: DVec3, pointer: DVec2, projection: &Projection) -> Option<Self> {
-        Some(Self { handle, start, grip: projection.project(start)? - pointer })
+        Some(Self { handle, start, grab_offset: projection.project(start)? - pointer })
     }
 
-    /// Where the handle is with the pointer at `pointer`, in film pixels.
+    /// The handle's world position while the pointer is at `pointer`, film pixels.
     pub(crate) fn target(&self, pointer: DVec2, constraint: Constraint, projection: &Projection) -> DVec3 {
-        let film = pointer + self.grip;
+        let film = pointer + self.grab_offset;
         match constraint {
             Constraint::Facing => projection.unproject(film, projection.depth(self.start)),
             Constraint::Axis(axis) => self.along(axis, film, projection),
         }
     }
 
-    /// The point of the axis nearest to the eye ray; the start where they are about parallel.
+    /// The point of the axis nearest to the camera ray; the start where both are nearly parallel.
     fn along(&self, axis: DVec3, film: DVec2, projection: &Projection) -> DVec3 {
         let ray = projection.ray(film);
         let cosine = axis.dot(ray.direction);
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_grab_beside_the_middle_does_not_make_the_handle_jump() {
+    fn grabbing_a_handle_off_centre_does_not_move_it() {
         let start = DVec3::new(0.3, -0.2, 0.5);
         let (drag, pointer) = grabbed(start, DVec2::new(3.0, -2.0));
         let there = drag.target(pointer, Constraint::Facing, &projection());
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_is_not_left_and_the_way_along_it_follows_the_pointer() {
+    fn a_handle_on_an_axis_follows_the_pointer_along_it() {
         let (projection, start) = (projection(), DVec3::new(0.3, -0.2, 0.5));
         let (drag, _) = grabbed(start, DVec2::ZERO);
         for axis in DVec3::AXES {
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_towards_the_eye_moves_nothing() {
+    fn an_axis_towards_the_camera_moves_nothing() {
         let start = DVec3::new(0.3, -0.2, 0.5);
         let (drag, pointer) = grabbed(start, DVec2::ZERO);
         let axis = (start - DVec3::new(1.0, 2.0, 4.0)).normalize();

@@ -6,17 +6,20 @@
 //! | `projection` | the pinhole camera: the map between world space and film pixels |
 //! | `drag` | where a dragged handle goes |
 //! | `picking` | the nearest object under a film point |
-//! | `overlay` | painting of control nets and handles |
+//! | `stage` | the handles on the screen, and which handles a click or drag affects |
+//! | `overlay` | painting of control nets, handles and drag axes |
 //! | `widget` | [`Canvas`]: pointer and keyboard input on the picture |
 
 mod drag;
 mod overlay;
 mod picking;
 mod projection;
+mod stage;
 mod view;
 mod widget;
 
 #[cfg(test)]
 pub(crate) use projection::Projection;
+#[cfg(test)]
 pub(crate) use view::View;
 pub(crate) use widget::{Canvas, Picture};

@@ -1,18 +1,18 @@
-//! How the control net and the handles look.
+//! Painting of control nets, handles and drag axes over the picture.
 
 use super::drag::Constraint;
-use super::widget::{HandlePlace, Stage};
+use super::stage::{ScreenHandle, Stage};
 use crate::app::document::Handle;
 use crate::app::theme::{self, overlay};
 use crate::scene::Bezier;
 use egui::{Color32, Painter, Pos2, Rect, Response, Stroke, StrokeKind, Vec2, vec2};
 
-/// Radius of a handle, screen points; it stays the same at every zoom.
+/// Radius of a handle at every zoom, screen points.
 const RADIUS: f32 = 4.0;
-/// The same under the pointer.
+/// Radius of the handle under the pointer, screen points.
 const RADIUS_HOVERED: f32 = 6.0;
 
-/// The control nets of an object; the one that the side panel shows stands out.
+/// Paints the control nets of an object; the net in the side panel stands out.
 pub(crate) fn paint_net(painter: &Painter, stage: &Stage<'_>, bezier: &Bezier) {
     let world_from_object = bezier.transform.world_from_object();
     for (patch, net) in bezier.patches.iter().enumerate() {
@@ -40,22 +40,22 @@ fn paint_segment(painter: &Painter, ends: Option<(Pos2, Pos2)>, shown: bool) {
     }
 }
 
-/// A dot for a control point, a square for an object, a sun for a light.
-pub(crate) fn paint_handle(painter: &Painter, stage: &Stage<'_>, place: &HandlePlace, response: &Response) {
+/// Paints a dot for a control point, a square for an object, a sun for a light.
+pub(crate) fn paint_handle(painter: &Painter, stage: &Stage<'_>, drawn: &ScreenHandle, response: &Response) {
     let hot = response.hovered() || response.dragged();
     let radius = if hot { RADIUS_HOVERED } else { RADIUS };
-    let fill = match place.handle {
+    let fill = match drawn.handle {
         _ if hot => overlay::HOVERED,
-        _ if stage.is_selected(place.handle) && !matches!(place.handle, Handle::Object(_)) => overlay::SELECTED,
+        _ if stage.is_selected(drawn.handle) && !matches!(drawn.handle, Handle::Object(_)) => overlay::SELECTED,
         Handle::Light(_) => overlay::LIGHT,
         Handle::Point { .. } | Handle::Object(_) => overlay::HANDLE,
     };
-    match place.handle {
-        Handle::Point { .. } => paint_dot(painter, place.screen, radius, fill),
-        Handle::Object(_) => paint_square(painter, place.screen, radius, fill),
+    match drawn.handle {
+        Handle::Point { .. } => paint_dot(painter, drawn.screen, radius, fill),
+        Handle::Object(_) => paint_square(painter, drawn.screen, radius, fill),
         Handle::Light(_) => {
-            paint_rays(painter, place.screen, radius, fill);
-            paint_dot(painter, place.screen, radius, fill);
+            paint_rays(painter, drawn.screen, radius, fill);
+            paint_dot(painter, drawn.screen, radius, fill);
         }
     }
 }
@@ -78,11 +78,11 @@ fn paint_rays(painter: &Painter, at: Pos2, radius: f32, color: Color32) {
     }
 }
 
-/// The line that a drag is bound to.
+/// Paints the axis that a drag is bound to.
 pub(crate) fn paint_constraint(painter: &Painter, stage: &Stage<'_>, handle: Handle, constraint: Constraint) {
     let Constraint::Axis(axis) = constraint else { return };
     let Some(at) = handle.position(stage.document.scene()) else { return };
-    // As long as the way to the eye: it leaves the picture on both sides, or nearly.
+    // Each half is half as long as the handle is deep: long enough to leave most pictures on both sides.
     let reach = axis * stage.projection.depth(at) * 0.5;
     if let (Some(from), Some(to)) = (stage.screen(at - reach), stage.screen(at + reach)) {
         let [x, y, z] = theme::palette(true).axes;
@@ -93,6 +93,6 @@ pub(crate) fn paint_constraint(painter: &Painter, stage: &Stage<'_>, handle: Han
         } else {
             z
         };
-        painter.with_clip_rect(stage.placement.canvas).line_segment([from, to], Stroke::new(1.5, color));
+        painter.with_clip_rect(stage.transform.canvas).line_segment([from, to], Stroke::new(1.5, color));
     }
 }

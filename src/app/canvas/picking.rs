@@ -1,17 +1,17 @@
-//! What is seen at a point of the picture. Knows no widget.
+//! The nearest object along a camera ray. Knows no widget.
 
 use crate::geometry::bezier::Patch;
 use crate::math::Ray;
 use crate::scene::{Bezier, Object, Scene, Shape};
 use glam::DVec3;
 
-/// The place in the list of the nearest object that the ray meets.
+/// The index of the nearest object that the ray meets; `None` where it meets none.
 pub(crate) fn nearest_object(scene: &Scene, ray: &Ray) -> Option<usize> {
     let hits = scene.objects.iter().enumerate().filter_map(|(index, object)| Some((index, distance(object, ray)?)));
     hits.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(index, _)| index)
 }
 
-/// Distance along the ray, scene units.
+/// Distance along the ray to the object, scene units; `None` where the ray misses.
 fn distance(object: &Object, ray: &Ray) -> Option<f64> {
     match &object.shape {
         Shape::Quad { corner, edge_u, edge_v } => parallelogram(ray, *corner, *edge_u, *edge_v),
@@ -34,7 +34,7 @@ fn parallelogram(ray: &Ray, corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Opti
     (u.clamp(0.0, 1.0) == u && v.clamp(0.0, 1.0) == v).then_some(t)
 }
 
-/// Distance and coordinates of the point where the ray meets the plane `corner + u edge_u + v edge_v`.
+/// Distance `t` along the ray to the plane `corner + u edge_u + v edge_v`, with `u` and `v` of the hit.
 fn solve(ray: &Ray, corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Option<(f64, f64, f64)> {
     let normal = edge_u.cross(edge_v);
     let t = plane(ray, corner, normal)?;
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ray_beside_meets_nothing() {
+    fn a_ray_beside_a_shape_misses_it() {
         let quad = Shape::Quad { corner: DVec3::ZERO, edge_u: DVec3::X, edge_v: DVec3::Y };
         let ball = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
         for shape in [quad, ball, flat_sheet()] {
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn behind_the_eye_is_nothing() {
+    fn an_object_behind_the_ray_is_missed() {
         let ball = object(Shape::Sphere { center: DVec3::new(0.0, 0.0, 20.0), radius: 1.0 });
         assert_eq!(distance(&ball, &ray(0.0, 0.0)), None);
     }

@@ -1,28 +1,29 @@
-//! From the scene to the picture and back: the pinhole camera in film pixels. Knows no widget.
+//! The pinhole camera in film pixels: projection of world points, and camera rays. Knows no widget.
 
 use crate::math::Ray;
 use crate::scene::{Camera, Film};
 use glam::{DVec2, DVec3};
 
-/// What lies nearer to the eye than this part of the distance to the target is not drawn, for it would project to huge coordinates.
+/// The near plane as a fraction of the distance to the target: nearer points would project to huge coordinates.
 const NEAREST_DEPTH: f64 = 1e-6;
 
-/// The pinhole camera as a map between world space and film space: pixels, x to the right, y down, (0, 0) the
-/// top-left corner of the top-left pixel.
+/// The map of a pinhole camera between world space and film space. Film coordinates are pixels: x to the right, y down,
+/// (0, 0) at the top-left corner of the top-left pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Projection {
-    eye: DVec3,
+    position: DVec3,
     right: DVec3,
     up: DVec3,
     forward: DVec3,
-    /// Pixels from the eye to the film.
+    /// Distance from the camera to the film, pixels.
     focal: f64,
     center: DVec2,
     near: f64,
 }
 
 impl Projection {
-    /// `None` where the camera has no direction: its target at its position, `up` along the view, an angle outside (0, 180).
+    /// The projection of a camera; `None` where its view is undefined: the target equals the position, `up` is parallel to the
+    /// view direction, or the angle of view lies outside (0, 180) degrees.
     pub(crate) fn new(camera: &Camera, film: &Film) -> Option<Self> {
         let forward = (camera.target - camera.position).try_normalize()?;
         let right = forward.cross(camera.up).try_normalize()?;
@@ -31,7 +32,7 @@ impl Projection {
         }
         let size = DVec2::new(f64::from(film.width), f64::from(film.height));
         Some(Self {
-            eye: camera.position,
+            position: camera.position,
             right,
             up: right.cross(forward),
             forward,
@@ -41,31 +42,31 @@ impl Projection {
         })
     }
 
-    /// Distance in front of the eye along the view direction, scene units; negative behind it.
+    /// Depth of a point along the view direction, scene units; negative behind the camera.
     pub(crate) fn depth(&self, world: DVec3) -> f64 {
-        (world - self.eye).dot(self.forward)
+        (world - self.position).dot(self.forward)
     }
 
-    /// Film pixels; `None` for a point behind the eye.
+    /// The film point of a world point, pixels; `None` behind the near plane.
     pub(crate) fn project(&self, world: DVec3) -> Option<DVec2> {
         let depth = self.depth(world);
         if depth <= self.near {
             return None;
         }
-        let offset = world - self.eye;
+        let offset = world - self.position;
         let scale = self.focal / depth;
         Some(self.center + DVec2::new(offset.dot(self.right), -offset.dot(self.up)) * scale)
     }
 
-    /// The world point that projects to `film` and lies `depth` in front of the eye.
+    /// The world point at depth `depth` that projects to the film point `film`.
     pub(crate) fn unproject(&self, film: DVec2, depth: f64) -> DVec3 {
         let offset = (film - self.center) * (depth / self.focal);
-        self.eye + self.forward * depth + self.right * offset.x - self.up * offset.y
+        self.position + self.forward * depth + self.right * offset.x - self.up * offset.y
     }
 
-    /// The ray from the eye through a film point; its direction has length 1.
+    /// The camera ray through a film point, with a direction of length 1.
     pub(crate) fn ray(&self, film: DVec2) -> Ray {
-        Ray::new(self.eye, (self.unproject(film, 1.0) - self.eye).normalize())
+        Ray::new(self.position, (self.unproject(film, 1.0) - self.position).normalize())
     }
 }
 
@@ -83,13 +84,13 @@ mod tests {
     }
 
     #[test]
-    fn the_target_is_in_the_middle() {
-        let middle = projection().project(DVec3::new(0.5, 0.0, -1.0)).unwrap();
-        assert!(middle.distance(DVec2::new(320.0, 240.0)) < TOLERANCE, "{middle}");
+    fn the_target_projects_to_the_film_centre() {
+        let center = projection().project(DVec3::new(0.5, 0.0, -1.0)).unwrap();
+        assert!(center.distance(DVec2::new(320.0, 240.0)) < TOLERANCE, "{center}");
     }
 
     #[test]
-    fn the_angle_of_view_is_the_whole_height() {
+    fn the_angle_of_view_spans_the_film_height() {
         let camera = Camera { position: DVec3::ZERO, target: DVec3::NEG_Z, fov_y: 90.0, ..Camera::default() };
         let projection = Projection::new(&camera, &Film { width: 200, height: 100, ..Film::default() }).unwrap();
         let top_right = projection.project(DVec3::new(2.0, 1.0, -1.0)).unwrap();
@@ -106,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ray_through_a_pixel_meets_what_projects_there() {
+    fn the_camera_ray_meets_the_projected_point() {
         let projection = projection();
         let world = DVec3::new(0.3, -0.4, 0.5);
         let ray = projection.ray(projection.project(world).unwrap());
@@ -115,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn behind_the_eye_nothing_is_projected() {
+    fn a_point_behind_the_camera_has_no_projection() {
         assert_eq!(projection().project(DVec3::new(1.5, 4.0, 17.0)), None);
     }
 

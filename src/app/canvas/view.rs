@@ -1,56 +1,56 @@
-//! Where the picture lies on the canvas: zoom and pan. Knows no widget.
+//! Zoom and pan: the map between film pixels and screen points. Knows no widget.
 
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;
 
-/// Screen points a film pixel covers, at most and at least.
+/// The range of scales, screen points per film pixel.
 const SCALE_RANGE: std::ops::RangeInclusive<f32> = 0.02..=64.0;
-/// Free space round a fitted picture, screen points.
+/// Margin around a fitted picture, screen points.
 const MARGIN: f32 = 12.0;
 
-/// How the user looks at the picture.
+/// The user's zoom and pan.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub(crate) enum View {
-    /// As large as fits, in the middle.
+    /// The whole picture, as large as fits, centred.
     #[default]
     Fit,
-    /// A fixed scale.
+    /// A fixed scale and position.
     Free {
-        /// Screen points for a film pixel.
+        /// Screen points per film pixel.
         scale: f32,
-        /// The film point in the middle of the canvas.
+        /// The film point at the canvas centre, film pixels.
         center: Vec2,
     },
 }
 
-/// Where the picture lies: a map between film pixels and screen points.
+/// The map between film pixels and screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Placement {
-    /// The canvas, screen points.
+pub(crate) struct ScreenTransform {
+    /// The rectangle of the canvas, screen points.
     pub(crate) canvas: Rect,
-    /// The film's size, pixels.
+    /// The film size, pixels.
     pub(crate) film: Vec2,
-    /// Screen points for a film pixel.
+    /// Screen points per film pixel.
     pub(crate) scale: f32,
     center: Vec2,
 }
 
 impl View {
-    /// Where a film of this size lies on this canvas.
-    pub(crate) fn place(&self, canvas: Rect, film: Vec2) -> Placement {
+    /// The transform of a film of `film` pixels on a canvas.
+    pub(crate) fn transform(&self, canvas: Rect, film: Vec2) -> ScreenTransform {
         let (scale, center) = match *self {
             Self::Fit => {
-                let room = (canvas.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(1.0)) / film;
-                (room.min_elem().clamp(*SCALE_RANGE.start(), *SCALE_RANGE.end()), 0.5 * film)
+                let largest = (canvas.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(1.0)) / film;
+                (largest.min_elem().clamp(*SCALE_RANGE.start(), *SCALE_RANGE.end()), 0.5 * film)
             }
             Self::Free { scale, center } => (scale, center),
         };
-        Placement { canvas, film, scale, center }
+        ScreenTransform { canvas, film, scale, center }
     }
 }
 
-impl Placement {
-    /// The whole picture, screen points; may reach beyond the canvas.
+impl ScreenTransform {
+    /// The rectangle of the picture, screen points; it may extend beyond the canvas.
     pub(crate) fn picture(&self) -> Rect {
         Rect::from_min_max(self.to_screen(DVec2::ZERO), self.to_screen_vec(self.film))
     }
@@ -70,7 +70,7 @@ impl Placement {
         DVec2::new(f64::from(film.x), f64::from(film.y))
     }
 
-    /// Column and row of the pixel under a screen point; `None` beside the picture.
+    /// Column and row of the pixel under a screen point; `None` outside the picture.
     pub(crate) fn pixel(&self, screen: Pos2) -> Option<(u32, u32)> {
         let film = self.to_film(screen);
         let inside =
@@ -78,19 +78,20 @@ impl Placement {
         inside.then_some((film.x as u32, film.y as u32))
     }
 
-    /// The view after zooming by `factor` with the film point under `cursor` staying there.
+    /// The view after zooming by `factor` about the film point under `cursor`.
     pub(crate) fn zoomed(&self, factor: f32, cursor: Pos2) -> View {
         let scale = (self.scale * factor).clamp(*SCALE_RANGE.start(), *SCALE_RANGE.end());
         let fixed = (cursor - self.canvas.center()) / self.scale + self.center;
         View::Free { scale, center: fixed - (cursor - self.canvas.center()) / scale }
     }
 
-    /// The view after the picture moved by `delta` screen points. Its middle stays on the film, so that it cannot be lost.
+    /// The view after the picture moved by `delta` screen points. The canvas centre stays on the film, so part of the picture
+    /// stays visible.
     pub(crate) fn panned(&self, delta: Vec2) -> View {
         View::Free { scale: self.scale, center: (self.center - delta / self.scale).clamp(Vec2::ZERO, self.film) }
     }
 
-    /// The view with one film pixel on one screen pixel, about the same middle, on whole pixels.
+    /// The view with one film pixel per screen pixel, aligned to screen pixels, around the same centre.
     pub(crate) fn one_to_one(&self, pixels_per_point: f32) -> View {
         let scale = 1.0 / pixels_per_point;
         let corner = self.canvas.center() - self.center * scale;
@@ -111,19 +112,19 @@ mod tests {
     }
 
     #[test]
-    fn fit_shows_the_whole_picture_in_the_middle() {
-        let placement = View::Fit.place(canvas(), vec2(512.0, 512.0));
-        assert!(canvas().contains_rect(placement.picture()), "{:?}", placement.picture());
-        assert!((placement.picture().height() - (600.0 - 2.0 * MARGIN)).abs() < TOLERANCE, "as large as fits");
-        assert!(placement.picture().center().distance(canvas().center()) < TOLERANCE, "in the middle");
+    fn fit_shows_the_whole_picture_centred() {
+        let transform = View::Fit.transform(canvas(), vec2(512.0, 512.0));
+        assert!(canvas().contains_rect(transform.picture()), "{:?}", transform.picture());
+        assert!((transform.picture().height() - (600.0 - 2.0 * MARGIN)).abs() < TOLERANCE, "as large as fits");
+        assert!(transform.picture().center().distance(canvas().center()) < TOLERANCE, "centred");
     }
 
     #[test]
     fn zooming_keeps_the_pixel_under_the_cursor() {
         let cursor = pos2(321.0, 234.0);
-        let before = View::Fit.place(canvas(), vec2(512.0, 384.0));
+        let before = View::Fit.transform(canvas(), vec2(512.0, 384.0));
         for factor in [0.5, 1.1, 7.0] {
-            let after = before.zoomed(factor, cursor).place(canvas(), vec2(512.0, 384.0));
+            let after = before.zoomed(factor, cursor).transform(canvas(), vec2(512.0, 384.0));
             let moved = after.to_screen(before.to_film(cursor)).distance(cursor);
             assert!(moved < TOLERANCE, "moved by {moved} at factor {factor}");
         }
@@ -133,38 +134,38 @@ mod tests {
     fn zoom_stays_in_its_range() {
         let mut view = View::Fit;
         for _ in 0..200 {
-            view = view.place(canvas(), vec2(512.0, 512.0)).zoomed(1.5, canvas().center());
+            view = view.transform(canvas(), vec2(512.0, 512.0)).zoomed(1.5, canvas().center());
         }
-        assert!(view.place(canvas(), vec2(512.0, 512.0)).scale <= *SCALE_RANGE.end(), "{view:?}");
+        assert!(view.transform(canvas(), vec2(512.0, 512.0)).scale <= *SCALE_RANGE.end(), "{view:?}");
     }
 
     #[test]
     fn film_and_screen_are_inverse_and_pixels_end_at_the_border() {
-        let placement = View::Free { scale: 3.0, center: vec2(10.0, 20.0) }.place(canvas(), vec2(64.0, 32.0));
+        let transform = View::Free { scale: 3.0, center: vec2(10.0, 20.0) }.transform(canvas(), vec2(64.0, 32.0));
         let film = DVec2::new(12.25, 31.5);
-        assert!(placement.to_film(placement.to_screen(film)).distance(film) < f64::from(TOLERANCE), "round trip");
-        assert_eq!(placement.pixel(placement.to_screen(film)), Some((12, 31)));
-        assert_eq!(placement.pixel(placement.to_screen(DVec2::new(64.5, 3.0))), None);
-        assert_eq!(placement.pixel(placement.to_screen(DVec2::new(-0.5, 3.0))), None);
+        assert!(transform.to_film(transform.to_screen(film)).distance(film) < f64::from(TOLERANCE), "round trip");
+        assert_eq!(transform.pixel(transform.to_screen(film)), Some((12, 31)));
+        assert_eq!(transform.pixel(transform.to_screen(DVec2::new(64.5, 3.0))), None);
+        assert_eq!(transform.pixel(transform.to_screen(DVec2::new(-0.5, 3.0))), None);
     }
 
     #[test]
-    fn panning_moves_the_picture_with_the_pointer_but_never_away() {
-        let placement = View::Fit.place(canvas(), vec2(512.0, 512.0));
-        let after = placement.panned(vec2(30.0, -20.0)).place(canvas(), vec2(512.0, 512.0));
-        assert!((after.picture().min - placement.picture().min - vec2(30.0, -20.0)).length() < TOLERANCE, "follows");
-        let far = placement.panned(vec2(1e6, 1e6)).place(canvas(), vec2(512.0, 512.0));
+    fn panning_moves_the_picture_with_the_pointer_and_keeps_it_visible() {
+        let transform = View::Fit.transform(canvas(), vec2(512.0, 512.0));
+        let after = transform.panned(vec2(30.0, -20.0)).transform(canvas(), vec2(512.0, 512.0));
+        assert!((after.picture().min - transform.picture().min - vec2(30.0, -20.0)).length() < TOLERANCE, "follows");
+        let far = transform.panned(vec2(1e6, 1e6)).transform(canvas(), vec2(512.0, 512.0));
         assert!(far.picture().intersects(canvas()), "still on the canvas");
     }
 
     #[test]
     fn one_to_one_puts_pixels_on_pixels() {
         for ppp in [1.0, 1.25, 2.0] {
-            let placement = View::Fit.place(canvas(), vec2(511.0, 333.0));
-            let placed = placement.one_to_one(ppp).place(canvas(), vec2(511.0, 333.0));
-            let corner = placed.picture().min.to_vec2() * ppp;
+            let transform = View::Fit.transform(canvas(), vec2(511.0, 333.0));
+            let aligned = transform.one_to_one(ppp).transform(canvas(), vec2(511.0, 333.0));
+            let corner = aligned.picture().min.to_vec2() * ppp;
             assert!((corner - corner.round()).length() < TOLERANCE, "{corner:?} at {ppp}");
-            assert!((placed.picture().width() * ppp - 511.0).abs() < TOLERANCE, "one pixel on one pixel");
+            assert!((aligned.picture().width() * ppp - 511.0).abs() < TOLERANCE, "one pixel on one pixel");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What menus, buttons and keys do: one table for all of them, and for the help.
+//! Actions of menus, buttons and keys. One table gives their labels and shortcuts, and the rows of the help.
 
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
@@ -30,15 +30,15 @@ pub(crate) enum Action {
     Help,
 }
 
-/// What may not have the keyboard for a shortcut to work.
+/// The keyboard focus that blocks a shortcut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Yields {
-    /// Works always.
-    Never,
-    /// A text field has its own meaning for it.
-    ToText,
-    /// Every focused widget has: plain letters, the space bar.
-    ToFocus,
+enum BlockedBy {
+    /// No focus blocks the shortcut.
+    Nothing,
+    /// A focused text field blocks the shortcut, which has its own meaning there.
+    Text,
+    /// Any focused widget blocks the shortcut: a plain letter or the space bar.
+    AnyFocus,
 }
 
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -48,7 +48,8 @@ const NONE: Modifiers = Modifiers::NONE;
 type Keys = &'static [(Modifiers, Key)];
 type Row = (Action, &'static str, Keys);
 
-/// Action, what it is called, its keys; of keys that differ in Shift alone, the one with Shift first.
+/// Each action with its label and shortcuts. Of two shortcuts that differ only in Shift, the one with Shift comes first,
+/// because egui's `consume_shortcut` ignores Shift where a shortcut does not ask for it.
 const TABLE: &[Row] = &[
     (Action::New, "New scene", &[(CTRL, Key::N)]),
     (Action::Open, "Open…", &[(CTRL, Key::O)]),
@@ -62,13 +63,13 @@ const TABLE: &[Row] = &[
     (Action::Duplicate, "Duplicate", &[(CTRL, Key::D)]),
     (Action::Delete, "Delete", &[(NONE, Key::Delete)]),
     (Action::TogglePause, "Pause or resume", &[(NONE, Key::Space)]),
-    (Action::Restart, "Restart", &[(NONE, Key::R)]),
+    (Action::Restart, "Restart rendering", &[(NONE, Key::R)]),
     (Action::Fit, "Fit picture", &[(NONE, Key::F), (CTRL, Key::Num0)]),
     (Action::OneToOne, "Actual pixels", &[(CTRL, Key::Num1)]),
     (Action::ZoomIn, "Zoom in", &[(CTRL, Key::Plus), (CTRL, Key::Equals)]),
     (Action::ZoomOut, "Zoom out", &[(CTRL, Key::Minus)]),
-    (Action::Darker, "Half a stop darker", &[(Modifiers::SHIFT, Key::E)]),
-    (Action::Brighter, "Half a stop brighter", &[(NONE, Key::E)]),
+    (Action::Darker, "Decrease exposure by half a stop", &[(Modifiers::SHIFT, Key::E)]),
+    (Action::Brighter, "Increase exposure by half a stop", &[(NONE, Key::E)]),
     (Action::ToggleHandles, "Show handles", &[(NONE, Key::H)]),
     (Action::TogglePanels, "Show panels", &[(CTRL, Key::B)]),
     (Action::FullScreen, "Full screen", &[(NONE, Key::F11)]),
@@ -76,17 +77,17 @@ const TABLE: &[Row] = &[
 ];
 
 impl Action {
-    /// What it is called in menus.
+    /// The action's label in menus.
     pub(crate) fn label(self) -> &'static str {
         TABLE.iter().find(|(action, ..)| *action == self).map_or("", |(_, label, _)| label)
     }
 
-    /// Its first key, as text; empty where it has none.
+    /// The action's first shortcut as text; empty where it has none.
     pub(crate) fn shortcut(self, ctx: &Context) -> String {
         self.shortcuts(ctx).into_iter().next().unwrap_or_default()
     }
 
-    /// All its keys, as text.
+    /// All shortcuts of the action as text.
     pub(crate) fn shortcuts(self, ctx: &Context) -> Vec<String> {
         let keys = TABLE.iter().find(|(action, ..)| *action == self).map_or(&[][..], |(.., keys)| keys);
         keys.iter().map(|(modifiers, key)| ctx.format_shortcut(&KeyboardShortcut::new(*modifiers, *key))).collect()
@@ -98,25 +99,25 @@ impl Action {
     }
 }
 
-fn yields(action: Action, modifiers: Modifiers, key: Key) -> Yields {
+fn blocked_by(action: Action, modifiers: Modifiers, key: Key) -> BlockedBy {
     let function_key = matches!(key, Key::F1 | Key::F11);
     match action {
-        Action::Undo | Action::Redo => Yields::ToText,
-        _ if modifiers.command || function_key => Yields::Never,
-        _ => Yields::ToFocus,
+        Action::Undo | Action::Redo => BlockedBy::Text,
+        _ if modifiers.command || function_key => BlockedBy::Nothing,
+        _ => BlockedBy::AnyFocus,
     }
 }
 
-/// The actions whose keys were pressed; takes those keys away from the widgets.
+/// The actions whose shortcuts were pressed in this frame. Widgets do not see these key presses.
 pub(crate) fn pressed(ctx: &Context) -> Vec<Action> {
     let (text, focus) = (ctx.text_edit_focused(), ctx.egui_wants_keyboard_input());
     let mut actions = Vec::new();
     for (action, _, keys) in TABLE {
         for (modifiers, key) in *keys {
-            let blocked = match yields(*action, *modifiers, *key) {
-                Yields::Never => false,
-                Yields::ToText => text,
-                Yields::ToFocus => focus,
+            let blocked = match blocked_by(*action, *modifiers, *key) {
+                BlockedBy::Nothing => false,
+                BlockedBy::Text => text,
+                BlockedBy::AnyFocus => focus,
             };
             if !blocked && ctx.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(*modifiers, *key))) {
                 actions.push(*action);
@@ -131,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_key_is_taken_twice() {
+    fn no_two_actions_share_a_key() {
         let mut seen = std::collections::HashSet::new();
         for (action, _, keys) in TABLE {
             for key in *keys {
@@ -141,17 +142,11 @@ mod tests {
     }
 
     #[test]
-    fn the_key_with_shift_comes_first() {
-        let place = |wanted| TABLE.iter().position(|(action, ..)| *action == wanted).unwrap();
-        assert!(place(Action::SaveAs) < place(Action::Save), "consume_shortcut ignores Shift that was not asked for");
-        assert!(
-            place(Action::ExportSurface) < place(Action::Export),
-            "consume_shortcut ignores Shift that was not asked for"
-        );
-        assert!(place(Action::Redo) < place(Action::Undo), "consume_shortcut ignores Shift that was not asked for");
-        assert!(
-            place(Action::Darker) < place(Action::Brighter),
-            "consume_shortcut ignores Shift that was not asked for"
-        );
+    fn a_shortcut_with_shift_comes_first() {
+        let row = |wanted| TABLE.iter().position(|(action, ..)| *action == wanted).unwrap();
+        assert!(row(Action::SaveAs) < row(Action::Save), "consume_shortcut ignores Shift");
+        assert!(row(Action::ExportSurface) < row(Action::Export), "consume_shortcut ignores Shift");
+        assert!(row(Action::Redo) < row(Action::Undo), "consume_shortcut ignores Shift");
+        assert!(row(Action::Darker) < row(Action::Brighter), "consume_shortcut ignores Shift");
     }
 }

@@ -1,65 +1,65 @@
-//! Everything that panels, canvas, menus and keys ask for. [`Editor::apply`](crate::app::editor::Editor) alone does it.
+//! Every request of the user. The editor's `apply` alone carries requests out.
 
 use super::action::Action;
+use super::purpose::Purpose;
 use crate::app::document::{Edit, Selection};
-use crate::app::files::Purpose;
 use egui::ThemePreference;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// A request to the editor.
+/// A request of the user to the editor.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum AppCommand {
-    /// Something without parameters.
+    /// Perform an action without parameters.
     Do(Action),
     /// Change the scene.
     Edit(Edit),
-    /// Talk about something else.
+    /// Change the selection.
     Select(Selection),
-    /// Choose a file to add something from.
+    /// Ask for a file to add to the scene.
     AddFrom(Purpose),
-    /// A file was dropped onto the window.
+    /// Use a file that was dropped onto the window.
     Drop(PathBuf),
-    /// Give up the drag that goes on.
+    /// Revert the current drag.
     CancelDrag,
-    /// Go on to something for which the present scene is given up; asks where there is something to lose.
-    GoTo(Next),
-    /// The answer to that question.
+    /// Leave the present scene; asks first while changes are unsaved.
+    Leave(Next),
+    /// Answer "Save the changes?".
     Answer(Answer),
-    /// The path that was typed.
+    /// Use the typed path.
     PathEntered(PathBuf),
-    /// The file dialog hangs or cannot be had: type the path.
+    /// Dismiss a slow file dialog and ask for a typed path.
     TypePath,
-    /// Close the dialog that is shown.
+    /// Close the open dialog.
     CloseDialog,
-    /// Rest once the error estimate is no more than this; `None`: never.
+    /// Stop rendering at this relative error; `None` never stops.
     Target(Option<f64>),
-    /// Choose a file for the surface, with so many quads along each side of a patch.
+    /// Ask for a file to export the surface to, with this many quads along each side of a patch.
     ExportSurface(NonZeroUsize),
-    /// Light or dark.
+    /// Choose the light or the dark theme.
     Theme(ThemePreference),
 }
 
-/// What gives up the present scene.
+/// What follows after leaving the present scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Next {
-    /// An empty scene.
+    /// Open a new scene.
     New,
-    /// The scene in this file.
+    /// Open the scene in this file.
     Open(PathBuf),
-    /// A scene that the program carries with it.
+    /// Open the built-in scene of this name.
     Example(&'static str),
-    /// The end.
+    /// Close the window.
     Quit,
 }
 
-/// To "Save the changes?".
+/// The user's answer to "Save the changes?".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Answer {
-    /// Save, then go on.
+    /// Save, then leave the scene.
     Save,
-    /// Go on without.
+    /// Leave the scene without saving.
     Discard,
-    /// Stay.
+    /// Keep the scene open.
     Cancel,
 }

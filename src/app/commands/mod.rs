@@ -3,10 +3,13 @@
 //! | file | holds |
 //! |---|---|
 //! | `action` | commands without parameters, with their labels and keys in one table |
+//! | `purpose` | the purposes of a file: open, save, export, add |
 //! | `command` | [`AppCommand`]: every request that a widget or key can make |
 
 pub(crate) mod action;
 mod command;
+mod purpose;
 
 pub(crate) use action::Action;
 pub(crate) use command::{Answer, AppCommand, Next};
+pub(crate) use purpose::Purpose;

@@ -1,58 +1,58 @@
-//! Every change of a scene that the window knows, applied in one place.
+//! Every change that the window can make to a scene, as data.
 
 use super::handles::Handle;
 use super::selection::Item;
 use crate::scene::{Camera, Color, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Texture};
 use glam::DVec3;
 
-/// A change of the scene.
+/// A change of a scene; an index is the item's position in its list.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Edit {
     /// The scene's name.
     Name(String),
-    /// The eye.
+    /// The camera.
     Camera(Camera),
-    /// Size and display.
+    /// Image size, exposure and tone curve.
     Film(Film),
-    /// Light transport.
+    /// The limits of light transport and the background.
     Render(Render),
-    /// The object in this place becomes this.
+    /// Replaces the object at this index.
     Object(usize, Object),
-    /// The material in this place becomes this; objects follow a new name.
+    /// Replaces the material at this index; a new name is copied to the objects that use it.
     Material(usize, Material),
-    /// The light in this place becomes this.
+    /// Replaces the light at this index.
     Light(usize, Light),
-    /// The texture in this place becomes this; materials follow a new name.
+    /// Replaces the texture at this index; a new name is copied to the materials that use it.
     Texture(usize, Texture),
-    /// Handles move by a world vector.
+    /// Moves handles by a vector in world space.
     Move(Vec<Handle>, DVec3),
-    /// A new object at the end of the list.
+    /// Appends an object.
     AddObject(Object),
-    /// A new material at the end of the list.
+    /// Appends a material.
     AddMaterial(Material),
-    /// A new light at the end of the list.
+    /// Appends a light.
     AddLight(Light),
-    /// A new texture at the end of the list.
+    /// Appends a texture.
     AddTexture(Texture),
-    /// An object, material, light or texture goes.
+    /// Removes an object, material, light or texture.
     Remove(Item),
 }
 
-/// Edits of one gesture with equal keys are one step to undo.
+/// The edit's name and the index of the edited item: edits of one gesture with equal keys make one undo step.
 pub(crate) type EditKey = (&'static str, usize);
 
 impl Edit {
-    /// What it does, to follow the word "Undo", and on what.
+    /// The edit's name, to follow the word "Undo", and the index of the edited item.
     pub(crate) fn key(&self) -> EditKey {
         match self {
             Self::Name(_) => ("rename scene", 0),
-            Self::Camera(_) => ("camera", 0),
-            Self::Film(_) => ("picture settings", 0),
-            Self::Render(_) => ("render settings", 0),
-            Self::Object(index, _) => ("object", *index),
-            Self::Material(index, _) => ("material", *index),
-            Self::Light(index, _) => ("light", *index),
-            Self::Texture(index, _) => ("texture", *index),
+            Self::Camera(_) => ("edit camera", 0),
+            Self::Film(_) => ("edit picture settings", 0),
+            Self::Render(_) => ("edit render settings", 0),
+            Self::Object(index, _) => ("edit object", *index),
+            Self::Material(index, _) => ("edit material", *index),
+            Self::Light(index, _) => ("edit light", *index),
+            Self::Texture(index, _) => ("edit texture", *index),
             Self::Move(handles, _) => match handles.first() {
                 Some(Handle::Point { object, .. }) => ("move control point", *object),
                 Some(Handle::Object(object)) => ("move object", *object),
@@ -67,7 +67,18 @@ impl Edit {
         }
     }
 
-    /// Changes the scene. What names a place that is not there does nothing.
+    /// The item that this edit would append to `scene`; `None` where it appends none.
+    pub(crate) fn added_item(&self, scene: &Scene) -> Option<Item> {
+        Some(match self {
+            Self::AddObject(_) => Item::Object(scene.objects.len()),
+            Self::AddMaterial(_) => Item::Material(scene.materials.len()),
+            Self::AddLight(_) => Item::Light(scene.lights.len()),
+            Self::AddTexture(_) => Item::Texture(scene.textures.len()),
+            _ => return None,
+        })
+    }
+
+    /// Changes the scene. An index beyond the end of its list changes nothing.
     pub(crate) fn apply(self, scene: &mut Scene) {
         match self {
             Self::Name(name) => scene.name = name,
@@ -110,7 +121,8 @@ fn replace_texture(scene: &mut Scene, index: usize, texture: Texture) {
     replace(&mut scene.textures, index, texture);
 }
 
-/// What still needs an item, by name: an object its material, a material its textures.
+/// The name of the first object that uses a material, or of the first material that uses a texture; `None` for an unused
+/// item, and for an item of any other kind.
 pub(crate) fn user_of(scene: &Scene, item: Item) -> Option<&str> {
     match item {
         Item::Material(index) => {
@@ -126,7 +138,7 @@ pub(crate) fn user_of(scene: &Scene, item: Item) -> Option<&str> {
     }
 }
 
-/// Every place in a material that names a texture.
+/// The texture names in a material, of its colours and its relief map.
 fn texture_names(material: &mut Material) -> Vec<&mut String> {
     let colors = match &mut material.model {
         MaterialModel::Diffuse { albedo } => vec![albedo],
@@ -197,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_in_use_has_a_user() {
+    fn a_used_item_names_its_user() {
         let mut scene = scene();
         assert_eq!(user_of(&scene, Item::Texture(0)), Some("floor"));
         assert_eq!(user_of(&scene, Item::Material(0)), Some("ball"));
@@ -208,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_that_is_not_there_changes_nothing() {
+    fn an_index_out_of_range_changes_nothing() {
         let mut changed = scene();
         let ball = changed.objects[0].clone();
         for edit in [Edit::Object(7, ball), Edit::Remove(Item::Light(3)), Edit::Remove(Item::Camera)] {

@@ -1,4 +1,4 @@
-//! The points of a scene that can be dragged on the picture: which there are, where they lie, and how they move. Knows no widget.
+//! The points of a scene that the user can drag: which exist, where they lie, and how they move.
 
 use super::selection::{Item, PointIndex};
 use crate::scene::{Bezier, Emitter, Object, Scene, Shape};
@@ -6,27 +6,27 @@ use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Control points nearer to each other than this part of their object's size are one point to the user.
+/// Control points nearer to each other than this fraction of their object's size are welded: they share one handle.
 const WELD_TOLERANCE: f64 = 1e-9;
 
-/// A point of the scene that can be dragged.
+/// A point of the scene that the user can drag; an index is the item's position in its list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Handle {
     /// A control point of a Bezier object.
     Point {
-        /// Its place in the list of objects.
+        /// The object's index.
         object: usize,
-        /// Which point.
+        /// The control point within the object.
         point: PointIndex,
     },
-    /// A whole object, by its middle.
+    /// The centre of an object, which moves the whole object.
     Object(usize),
-    /// A light, by its middle.
+    /// The centre of a light.
     Light(usize),
 }
 
 impl Handle {
-    /// What a click on it selects.
+    /// The item that a click on the handle selects.
     pub(crate) fn item(self) -> Item {
         match self {
             Self::Point { object, .. } | Self::Object(object) => Item::Object(object),
@@ -34,7 +34,7 @@ impl Handle {
         }
     }
 
-    /// What it is called, for the tooltip and for assistive technology.
+    /// The handle's name, for its tooltip and for assistive technology.
     pub(crate) fn label(self, scene: &Scene) -> String {
         match self {
             Self::Point { object, point } => {
@@ -47,7 +47,7 @@ impl Handle {
         }
     }
 
-    /// Where it lies in the world.
+    /// The handle's position in world space; `None` where the scene lacks its item, or the object has no control points.
     pub(crate) fn position(self, scene: &Scene) -> Option<DVec3> {
         match self {
             Self::Point { object, point } => {
@@ -55,12 +55,13 @@ impl Handle {
                 let local = bezier.patches.get(point.patch)?.points.get(point.i)?.get(point.j)?;
                 Some(bezier.transform.world_from_object().transform_point3(*local))
             }
-            Self::Object(object) => scene.objects.get(object).and_then(object_middle),
-            Self::Light(light) => scene.lights.get(light).map(|light| light_middle(&light.emitter)),
+            Self::Object(object) => scene.objects.get(object).and_then(object_center),
+            Self::Light(light) => scene.lights.get(light).map(|light| light_center(&light.emitter)),
         }
     }
 
-    /// Moves it by a world vector. A point of an object that is scaled to nothing along some axis stays.
+    /// Moves the handle by a vector in world space. A control point stays where its object's transform cannot be inverted,
+    /// because a scale is zero.
     pub(crate) fn translate(self, scene: &mut Scene, by: DVec3) {
         match self {
             Self::Point { object, point } => {
@@ -82,7 +83,7 @@ impl Handle {
     }
 }
 
-/// The handles to draw: every light, the selected object, and its control points, of which those at one place count once.
+/// The handles to draw: every light, the selected object and its control points. Welded control points share one handle.
 pub(crate) fn visible(scene: &Scene, selected: Item) -> Vec<Handle> {
     let mut handles: Vec<Handle> = (0..scene.lights.len()).map(Handle::Light).collect();
     if let Item::Object(object) = selected {
@@ -97,20 +98,20 @@ pub(crate) fn visible(scene: &Scene, selected: Item) -> Vec<Handle> {
     handles
 }
 
-/// The control points that lie where `point` lies, itself among them: dragged together they keep a surface of several patches closed.
+/// The control points at the position of `point`, including itself. Dragged together, they keep adjacent patches joined.
 pub(crate) fn welded(bezier: &Bezier, point: PointIndex) -> BTreeSet<PointIndex> {
     let group = weld_groups(bezier).into_iter().find(|group| group.contains(&point));
     group.unwrap_or_else(|| BTreeSet::from([point]))
 }
 
-/// The index of every control point with its place before the transform.
+/// The index of every control point with its position in object space.
 pub(crate) fn control_points(bezier: &Bezier) -> impl Iterator<Item = (PointIndex, DVec3)> + '_ {
     bezier.patches.iter().enumerate().flat_map(|(patch, net)| {
         (0..16).map(move |k| (PointIndex { patch, i: k / 4, j: k % 4 }, net.points[k / 4][k % 4]))
     })
 }
 
-/// The control points in groups of one place, each place once.
+/// The control points, grouped by position.
 fn weld_groups(bezier: &Bezier) -> Vec<BTreeSet<PointIndex>> {
     let size = control_points(bezier).map(|(_, at)| at.abs().max_element()).fold(0.0, f64::max);
     let tolerance = WELD_TOLERANCE * size;
@@ -118,9 +119,9 @@ fn weld_groups(bezier: &Bezier) -> Vec<BTreeSet<PointIndex>> {
     sorted.sort_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     let mut groups: Vec<(DVec3, BTreeSet<PointIndex>)> = Vec::new();
     for (index, at) in sorted {
-        // Sorted by x, so only the last groups can lie as near.
-        let near = groups.iter_mut().rev().take_while(|(place, _)| at.x - place.x <= tolerance);
-        match near.into_iter().find(|(place, _)| place.distance(at) <= tolerance) {
+        // The points are sorted by x, so only the last groups can lie within the tolerance.
+        let near = groups.iter_mut().rev().take_while(|(first, _)| at.x - first.x <= tolerance);
+        match near.into_iter().find(|(first, _)| first.distance(at) <= tolerance) {
             Some((_, group)) => drop(group.insert(index)),
             None => groups.push((at, BTreeSet::from([index]))),
         }
@@ -135,7 +136,7 @@ fn bezier(scene: &Scene, object: usize) -> Option<&Bezier> {
     }
 }
 
-fn object_middle(object: &Object) -> Option<DVec3> {
+fn object_center(object: &Object) -> Option<DVec3> {
     Some(match &object.shape {
         Shape::Quad { corner, edge_u, edge_v } => *corner + 0.5 * (*edge_u + *edge_v),
         Shape::Sphere { center, .. } => *center,
@@ -148,7 +149,7 @@ fn object_middle(object: &Object) -> Option<DVec3> {
     })
 }
 
-fn light_middle(emitter: &Emitter) -> DVec3 {
+fn light_center(emitter: &Emitter) -> DVec3 {
     match emitter {
         Emitter::Point { position, .. } => *position,
         Emitter::Sphere { center, .. } => *center,
@@ -160,28 +161,28 @@ fn translate_point(bezier: &mut Bezier, point: PointIndex, by: DVec3) {
     let object_from_world = bezier.transform.world_from_object().inverse();
     let by = object_from_world.transform_vector3(by);
     let net = Arc::make_mut(&mut bezier.patches).get_mut(point.patch);
-    let place = net.and_then(|net| net.points.get_mut(point.i)?.get_mut(point.j));
-    if let Some(place) = place.filter(|_| by.is_finite()) {
-        *place += by;
-        // The patches are no longer what the file holds.
+    let position = net.and_then(|net| net.points.get_mut(point.i)?.get_mut(point.j));
+    if let Some(position) = position.filter(|_| by.is_finite()) {
+        *position += by;
+        // The patches now differ from the `.bpt` file.
         bezier.file = None;
     }
 }
 
 fn translate_shape(shape: &mut Shape, by: DVec3) {
     match shape {
-        Shape::Quad { corner: place, .. } | Shape::Sphere { center: place, .. } | Shape::Plane { point: place, .. } => {
-            *place += by;
-        }
+        Shape::Quad { corner: position, .. }
+        | Shape::Sphere { center: position, .. }
+        | Shape::Plane { point: position, .. } => *position += by,
         Shape::Bezier(bezier) => bezier.transform.translate += by,
     }
 }
 
 fn translate_emitter(emitter: &mut Emitter, by: DVec3) {
     match emitter {
-        Emitter::Point { position: place, .. }
-        | Emitter::Sphere { center: place, .. }
-        | Emitter::Quad { corner: place, .. } => *place += by,
+        Emitter::Point { position, .. }
+        | Emitter::Sphere { center: position, .. }
+        | Emitter::Quad { corner: position, .. } => *position += by,
     }
 }
 
@@ -221,11 +222,11 @@ mod tests {
         handle.translate(&mut scene, by);
         let after = handle.position(&scene).unwrap();
         assert!(after.distance(before + by) < TOLERANCE, "{after} is not {}", before + by);
-        assert_eq!(bezier(&scene, 0).unwrap().file, None, "the file holds other points now");
+        assert_eq!(bezier(&scene, 0).unwrap().file, None, "the points now differ from the file");
     }
 
     #[test]
-    fn only_the_handle_moves() {
+    fn a_moved_control_point_leaves_its_neighbours_in_place() {
         let mut scene = scene();
         let others: Vec<_> = visible(&scene, Item::Object(0))
             .into_iter()
@@ -242,18 +243,18 @@ mod tests {
     fn an_object_and_its_points_move_together() {
         let mut scene = scene();
         let point = Handle::Point { object: 0, point: PointIndex::default() };
-        let (before, middle) = (point.position(&scene).unwrap(), Handle::Object(0).position(&scene).unwrap());
+        let (before, center) = (point.position(&scene).unwrap(), Handle::Object(0).position(&scene).unwrap());
         Handle::Object(0).translate(&mut scene, DVec3::ONE);
         assert!(point.position(&scene).unwrap().distance(before + DVec3::ONE) < TOLERANCE, "the point follows");
         let moved = Handle::Object(0).position(&scene).unwrap();
-        assert!(moved.distance(middle + DVec3::ONE) < TOLERANCE, "the middle follows");
+        assert!(moved.distance(center + DVec3::ONE) < TOLERANCE, "the centre follows");
     }
 
     #[test]
     fn the_seam_of_two_patches_is_one_row_of_handles() {
         let scene = scene();
         let points = visible(&scene, Item::Object(0)).len() - 1;
-        assert_eq!(points, 2 * 16 - 4, "four places are shared");
+        assert_eq!(points, 2 * 16 - 4, "the patches share four positions");
         let seam = PointIndex { patch: 0, i: 3, j: 1 };
         let expected = BTreeSet::from([seam, PointIndex { patch: 1, i: 0, j: 1 }]);
         assert_eq!(welded(bezier(&scene, 0).unwrap(), seam), expected);

@@ -1,6 +1,6 @@
-//! Undo and redo over whole states, where the steps of one gesture are one.
+//! Undo and redo over whole states; the changes of one gesture make one step.
 
-/// States kept at most; a scene shares its control points with its copies, so a state is small.
+/// States kept at most. A state is small, because copies of a scene share their control points.
 const CAPACITY: usize = 500;
 
 /// The states before and after the present one.
@@ -8,7 +8,7 @@ const CAPACITY: usize = 500;
 pub(crate) struct History<State, Key> {
     before: Vec<(State, Key)>,
     after: Vec<(State, Key)>,
-    /// The gesture that goes on, if any: its later steps add no state.
+    /// The key of the current gesture: its later changes add no state.
     gesture: Option<Key>,
 }
 
@@ -19,7 +19,7 @@ impl<State, Key> Default for History<State, Key> {
 }
 
 impl<State, Key: Copy + PartialEq> History<State, Key> {
-    /// To be called before a change: keeps `present` unless the change goes on with the gesture of the same key.
+    /// Keeps `present`, the state before a change, unless the current gesture has the same key.
     pub(crate) fn record(&mut self, present: State, key: Key) {
         self.after.clear();
         if self.gesture == Some(key) {
@@ -32,12 +32,15 @@ impl<State, Key: Copy + PartialEq> History<State, Key> {
         }
     }
 
-    /// The gesture is over: the next change is a step of its own.
+    /// Ends the gesture: the next change starts a new step.
     pub(crate) fn end_gesture(&mut self) {
         self.gesture = None;
     }
 
-    /// Takes back the gesture that goes on as if it had never been; gives `present` back where there is none.
+    /// The state before the current gesture, which leaves no step behind.
+    ///
+    /// # Errors
+    /// Returns `present` when no gesture is in progress.
     pub(crate) fn abandon_gesture(&mut self, present: State) -> Result<State, State> {
         match self.gesture.take().and_then(|_| self.before.pop()) {
             Some((state, _)) => Ok(state),
@@ -45,23 +48,29 @@ impl<State, Key: Copy + PartialEq> History<State, Key> {
         }
     }
 
-    /// What `undo` takes back.
+    /// The key of the step that `undo` would revert.
     pub(crate) fn undoable(&self) -> Option<Key> {
         self.before.last().map(|(_, key)| *key)
     }
 
-    /// What `redo` does again.
+    /// The key of the step that `redo` would repeat.
     pub(crate) fn redoable(&self) -> Option<Key> {
         self.after.last().map(|(_, key)| *key)
     }
 
-    /// Gives `present` for the state before it; gives it back where there is none.
+    /// The state before the last step, in exchange for `present`.
+    ///
+    /// # Errors
+    /// Returns `present` when no step is left to undo.
     pub(crate) fn undo(&mut self, present: State) -> Result<State, State> {
         self.gesture = None;
         exchange(&mut self.before, &mut self.after, present)
     }
 
-    /// Gives `present` for the state after it; gives it back where there is none.
+    /// The state after the last undone step, in exchange for `present`.
+    ///
+    /// # Errors
+    /// Returns `present` when no step is left to redo.
     pub(crate) fn redo(&mut self, present: State) -> Result<State, State> {
         self.gesture = None;
         exchange(&mut self.after, &mut self.before, present)
@@ -117,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_after_undo_takes_the_way_forward() {
+    fn a_change_after_undo_clears_redo() {
         let mut history = History::default();
         history.record(0, "a");
         assert_eq!(history.undo(1), Ok(0));
@@ -131,12 +140,12 @@ mod tests {
         history.record(0, "drag");
         history.record(1, "drag");
         assert_eq!(history.abandon_gesture(2), Ok(0));
-        assert_eq!(history.abandon_gesture(0), Err(0), "there is no gesture any more");
+        assert_eq!(history.abandon_gesture(0), Err(0), "the gesture has ended");
         assert_eq!((history.undoable(), history.redoable()), (None, None));
     }
 
     #[test]
-    fn the_oldest_states_go_first() {
+    fn the_oldest_states_are_dropped_first() {
         let mut history = History::default();
         for state in 0..CAPACITY + 5 {
             history.record(state, state);

@@ -4,14 +4,16 @@
 //! |---|---|
 //! | `selection` | the selected item and control points |
 //! | `handles` | the draggable points of a scene: which exist, where they lie, how they move |
-//! | `edit` | every change of a scene, as data |
-//! | `history` | undo and redo over whole states |
-//! | `new_items` | the objects, lights, materials and textures that "Add", "Duplicate" and "Type" create |
+//! | `edit` | [`Edit`]: every change of a scene, as data |
+//! | `history` | undo and redo of whole states |
+//! | `kinds` | the kinds of shapes, lights, materials and textures: names, and conversions |
+//! | `new_items` | the items that "Add", "Duplicate" and "New scene" create |
 //! | `state` | [`Document`]: the scene with its file, selection and history |
 
 mod edit;
 pub(crate) mod handles;
 mod history;
+pub(crate) mod kinds;
 pub(crate) mod new_items;
 mod selection;
 mod state;

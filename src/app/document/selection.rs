@@ -1,27 +1,27 @@
-//! What the panels and the canvas talk about.
+//! The selected item and control points.
 
 use crate::scene::{Bezier, Object, Scene, Shape};
 use std::collections::BTreeSet;
 
-/// A thing that can be selected; a number is the place in its list.
+/// A part of the scene that can be selected; an index is its position in the scene's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub(crate) enum Item {
-    /// The eye.
+    /// The camera.
     #[default]
     Camera,
-    /// The picture's size and the light transport.
+    /// The settings of the picture and of light transport.
     Settings,
-    /// A surface.
+    /// An object.
     Object(usize),
-    /// A surface's look.
+    /// A material.
     Material(usize),
-    /// A source of light.
+    /// A light.
     Light(usize),
-    /// An image.
+    /// A texture.
     Texture(usize),
 }
 
-/// A control point of a Bezier object: `patches[patch].points[i][j]`.
+/// The index of a control point in a Bezier object: `patches[patch].points[i][j]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub(crate) struct PointIndex {
     pub(crate) patch: usize,
@@ -39,19 +39,19 @@ pub(crate) struct Selection {
 }
 
 impl Selection {
-    /// This item and none of its points.
+    /// Selects an item without control points.
     pub(crate) fn of(item: Item) -> Self {
         Self { item, ..Self::default() }
     }
 
-    /// The first Bezier object of a scene, for it is what one comes to edit; else the first object; else the camera.
+    /// Selects the first Bezier object, which users edit most; else the first object; else the camera.
     pub(crate) fn first_of(scene: &Scene) -> Self {
         let bezier = scene.objects.iter().position(|object| matches!(object.shape, Shape::Bezier(_)));
         let first = bezier.or((!scene.objects.is_empty()).then_some(0));
         first.map_or_else(Self::default, |object| Self::of(Item::Object(object)))
     }
 
-    /// The same without what the scene does not hold any more.
+    /// This selection without items and control points that `scene` lacks.
     pub(crate) fn within(mut self, scene: &Scene) -> Self {
         let exists = match self.item {
             Item::Camera | Item::Settings => true,
@@ -69,7 +69,7 @@ impl Selection {
         self
     }
 
-    /// The selected object.
+    /// The selected object; `None` when another kind of item is selected.
     pub(crate) fn object<'a>(&self, scene: &'a Scene) -> Option<&'a Object> {
         match self.item {
             Item::Object(index) => scene.objects.get(index),
@@ -77,7 +77,7 @@ impl Selection {
         }
     }
 
-    /// The selected Bezier object.
+    /// The shape of the selected Bezier object; `None` when any other item is selected.
     pub(crate) fn bezier<'a>(&self, scene: &'a Scene) -> Option<&'a Bezier> {
         match &self.object(scene)?.shape {
             Shape::Bezier(bezier) => Some(bezier),
@@ -85,7 +85,7 @@ impl Selection {
         }
     }
 
-    /// With `extend` the point changes between selected and not, else it becomes the only one.
+    /// Selects the point alone, or toggles it with `extend`.
     pub(crate) fn click_point(&mut self, point: PointIndex, extend: bool) {
         self.patch = point.patch;
         if !extend {
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shift_adds_and_takes_away_points() {
+    fn extending_toggles_points() {
         let (a, b) = (PointIndex::default(), PointIndex { patch: 0, i: 1, j: 2 });
         let mut selection = Selection::of(Item::Object(0));
         selection.click_point(a, false);
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_gone_is_not_selected() {
+    fn a_removed_item_is_not_selected() {
         let scene = Scene::default();
         assert_eq!(Selection::of(Item::Object(3)).within(&scene), Selection::of(Item::Camera));
         assert_eq!(Selection::of(Item::Settings).within(&scene), Selection::of(Item::Settings));

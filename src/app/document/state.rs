@@ -1,4 +1,4 @@
-//! The scene that is edited, what is selected in it, and the way back.
+//! The edited scene with its file, its selection and its undo history.
 
 use super::edit::{Edit, EditKey};
 use super::history::History;
@@ -7,20 +7,21 @@ use crate::scene::{Location, Scene, SceneFile};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The scene that is edited. Nothing but [`Document::edit`], [`Document::undo`] and [`Document::redo`] changes it.
+/// The edited scene. Only [`Document::edit`], [`Document::undo`], [`Document::redo`] and [`Document::abandon_gesture`]
+/// change it.
 #[derive(Debug)]
 pub(crate) struct Document {
     file: Arc<SceneFile>,
     saved: Arc<SceneFile>,
-    /// Where it is saved; `None` for what was never saved and for what the program carries with it.
+    /// The scene's file; `None` for a built-in scene and for one that was never saved.
     path: Option<PathBuf>,
-    /// What the panels and the canvas talk about.
+    /// The item that the panels and the canvas show.
     pub(crate) selection: Selection,
     history: History<(Arc<SceneFile>, Selection), EditKey>,
 }
 
 impl Document {
-    /// A scene as it was opened.
+    /// The document of a scene that was just opened, with its first Bezier object selected.
     pub(crate) fn new(file: SceneFile) -> Self {
         let path = match &file.location {
             Location::Disk(path) => Some(path.clone()),
@@ -31,27 +32,27 @@ impl Document {
         Self { saved: Arc::clone(&file), file, path, selection, history: History::default() }
     }
 
-    /// The scene as it is now.
+    /// The present state of the scene.
     pub(crate) fn scene(&self) -> &Scene {
         &self.file.scene
     }
 
-    /// The scene with the place that its paths are relative to.
+    /// The scene with the location that its file paths are relative to.
     pub(crate) fn file(&self) -> &Arc<SceneFile> {
         &self.file
     }
 
-    /// Where it is saved, if it is a file.
+    /// The scene's file; `None` for a built-in scene and for one that was never saved.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }
 
-    /// Whether there is something to lose.
+    /// Whether the scene differs from its saved state.
     pub(crate) fn is_dirty(&self) -> bool {
         !Arc::ptr_eq(&self.file, &self.saved) && self.file != self.saved
     }
 
-    /// For the title bar.
+    /// The file's name for the title bar, after `*` while changes are unsaved.
     pub(crate) fn title(&self) -> String {
         let file = self.path.as_deref().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
         let name = file.unwrap_or_else(|| match &self.file.location {
@@ -61,9 +62,9 @@ impl Document {
         format!("{}{name}", if self.is_dirty() { "*" } else { "" })
     }
 
-    /// Changes the scene; within a gesture, edits of one key are one step to undo.
+    /// Changes the scene, and selects an added item. Edits with one key within one gesture make one undo step.
     pub(crate) fn edit(&mut self, edit: Edit) {
-        let key = edit.key();
+        let (key, added) = (edit.key(), edit.added_item(&self.file.scene));
         let mut scene = self.file.scene.clone();
         edit.apply(&mut scene);
         if scene == self.file.scene {
@@ -71,43 +72,44 @@ impl Document {
         }
         self.history.record((Arc::clone(&self.file), self.selection.clone()), key);
         self.file = Arc::new(SceneFile { scene, location: self.file.location.clone() });
-        self.selection = std::mem::take(&mut self.selection).within(&self.file.scene);
+        let selection = added.map_or_else(|| std::mem::take(&mut self.selection), Selection::of);
+        self.selection = selection.within(&self.file.scene);
     }
 
-    /// The next edit is a step of its own.
+    /// Ends the gesture: the next edit starts a new undo step.
     pub(crate) fn end_gesture(&mut self) {
         self.history.end_gesture();
     }
 
-    /// Takes back the edits of the gesture that goes on.
+    /// Reverts the edits of the current gesture, without a redo step.
     pub(crate) fn abandon_gesture(&mut self) {
         let present = (Arc::clone(&self.file), self.selection.clone());
         (self.file, self.selection) = self.history.abandon_gesture(present).unwrap_or_else(|present| present);
     }
 
-    /// What undo takes back, in words.
+    /// The name of the edit that undo would revert.
     pub(crate) fn undoable(&self) -> Option<&'static str> {
         self.history.undoable().map(|(label, _)| label)
     }
 
-    /// What redo does again, in words.
+    /// The name of the edit that redo would repeat.
     pub(crate) fn redoable(&self) -> Option<&'static str> {
         self.history.redoable().map(|(label, _)| label)
     }
 
-    /// One step back, if there is one.
+    /// Reverts the last undo step, if any.
     pub(crate) fn undo(&mut self) {
         let present = (Arc::clone(&self.file), self.selection.clone());
         (self.file, self.selection) = self.history.undo(present).unwrap_or_else(|present| present);
     }
 
-    /// One step forward, if there is one.
+    /// Repeats the last undone step, if any.
     pub(crate) fn redo(&mut self) {
         let present = (Arc::clone(&self.file), self.selection.clone());
         (self.file, self.selection) = self.history.redo(present).unwrap_or_else(|present| present);
     }
 
-    /// The scene was written to `path`, where its paths are those of `saved`.
+    /// Takes `saved` as the present scene: it was just written to `path`, and its file paths are relative to there.
     pub(crate) fn saved_as(&mut self, path: PathBuf, saved: SceneFile) {
         self.path = Some(path);
         self.saved = Arc::new(saved);
@@ -118,8 +120,8 @@ impl Document {
 
 #[cfg(test)]
 mod tests {
+    use super::super::handles::Handle;
     use super::*;
-    use crate::app::document::Handle;
     use crate::math::Rgb;
     use crate::scene::{Emitter, Light};
     use glam::DVec3;
@@ -139,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drag_is_undone_at_once() {
+    fn a_drag_is_one_undo_step() {
         let mut document = document();
         for _ in 0..5 {
             nudge(&mut document);
@@ -155,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn dirty_is_what_differs_from_the_saved_scene() {
+    fn a_scene_that_differs_from_the_saved_one_is_dirty() {
         let mut document = document();
         assert!(!document.is_dirty(), "as opened");
         nudge(&mut document);
@@ -171,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_that_changes_nothing_is_no_step() {
+    fn an_edit_without_effect_adds_no_undo_step() {
         let mut document = document();
         document.edit(Edit::Name(String::new()));
         assert_eq!(document.undoable(), None);

@@ -3,12 +3,18 @@
 //! | file | holds |
 //! |---|---|
 //! | `state` | [`Editor`]: all that the window shows and remembers |
-//! | `files` | opening, saving and exporting |
+//! | `asking` | asks the user for a path, by file dialog or by path field |
+//! | `scenes` | opens, saves and leaves scenes |
+//! | `chosen` | uses a chosen path: open, save, export, add |
 //! | `apply` | the one place that carries out commands |
-//! | `tests` | the editor as a user meets it |
+//! | `layout` | draws the content, then carries out the commands that its parts push |
+//! | `tests` | tests of the editor through its widgets, without an engine |
 
 mod apply;
-mod files;
+mod asking;
+mod chosen;
+mod layout;
+mod scenes;
 mod state;
 
 #[cfg(test)]

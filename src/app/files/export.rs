@@ -1,8 +1,7 @@
-//! Writing the picture and the surface, off the UI thread.
+//! Writing of pictures and surfaces, off the UI thread.
 
-use super::chooser::Purpose;
-use crate::app::editor::Editor;
-use crate::app::shell::Dialog;
+use crate::app::commands::Purpose;
+use crate::app::document::Document;
 use crate::engine::Frame;
 use crate::file::write_whole;
 use crate::film::{ToneMap, write_exr, write_png};
@@ -13,16 +12,21 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-type Written = (Purpose, PathBuf, Result<(), String>);
+/// A file that was exported, or the reason why it could not be.
+pub(crate) struct Exported {
+    pub(crate) purpose: Purpose,
+    pub(crate) path: PathBuf,
+    pub(crate) result: Result<(), String>,
+}
 
-/// The picture to be written and what became of what was written before.
+/// The exports in progress.
 pub(crate) struct Export {
-    /// Where to write the next picture that is no draft.
+    /// The path of a requested picture, which waits for the first frame that is no draft.
     waiting: Option<PathBuf>,
     /// Quads along each side of a patch, in a mesh.
     pub(crate) steps: NonZeroUsize,
-    // One message for one click.
-    done: (Sender<Written>, Receiver<Written>),
+    // Each click sends at most one message.
+    done: (Sender<Exported>, Receiver<Exported>),
 }
 
 impl Default for Export {
@@ -32,9 +36,36 @@ impl Default for Export {
 }
 
 impl Export {
-    /// The picture to come is of another scene.
-    pub(crate) fn forget_waiting(&mut self) {
+    /// Writes the picture to `path` once a frame is no draft.
+    pub(crate) fn request_picture(&mut self, path: PathBuf) {
+        self.waiting = Some(path);
+    }
+
+    /// Drops the requested picture, because the next frames show another scene.
+    pub(crate) fn cancel_picture(&mut self) {
         self.waiting = None;
+    }
+
+    /// Writes the surface to `path`, in the format of the path's extension; writes nothing for an unknown extension.
+    pub(crate) fn write_surface(&self, ctx: &Context, surface: SurfaceExport, path: PathBuf) {
+        let Some(format) = SurfaceFormat::of(&path) else { return };
+        let steps = self.steps;
+        self.spawn(ctx, Purpose::ExportSurface, path, move |path| {
+            write_whole(path, surface.text(format, steps).as_bytes())
+                .map_err(|error| format!("{} cannot be written: {error}", path.display()))
+        });
+    }
+
+    /// Writes the requested picture if `frame`, the newest frame that is no draft, exists. Returns the exports that have
+    /// finished since the last call.
+    pub(crate) fn poll(&mut self, ctx: &Context, frame: Option<&Arc<Frame>>, film: Film) -> Vec<Exported> {
+        if let Some(frame) = frame
+            && let Some(path) = self.waiting.take()
+        {
+            let frame = Arc::clone(frame);
+            self.spawn(ctx, Purpose::ExportPicture, path, move |path| write_picture(path, &frame, &film));
+        }
+        self.done.1.try_iter().collect()
     }
 
     fn spawn(
@@ -46,70 +77,22 @@ impl Export {
     ) {
         let (done, ctx) = (self.done.0.clone(), ctx.clone());
         rayon::spawn(move || {
-            let written = write(&path);
-            // Closed only when the window is.
-            done.send((purpose, path, written)).ok();
+            let result = write(&path);
+            // The channel is closed only after the window.
+            done.send(Exported { purpose, path, result }).ok();
             ctx.request_repaint();
         });
     }
 }
 
-impl Editor {
-    /// Writes the picture as soon as it is no draft.
-    pub(crate) fn start_export(&mut self, path: PathBuf) {
-        if self.rendering.full_frame().is_none() {
-            self.toasts.info("The picture is still a draft; it is written after its first iteration");
-        }
-        self.export.waiting = Some(path);
-    }
-
-    /// Asks how the surface is to be exported.
-    pub(crate) fn ask_for_surface(&mut self) {
-        match self.surface() {
-            Some(surface) => self.dialog = Some(Dialog::Surface(surface.name, self.export.steps.get())),
-            None => {
-                self.toasts.warning("The scene has no Bezier object to export");
-            }
-        }
-    }
-
-    /// The selected Bezier object, or all of them.
-    fn surface(&self) -> Option<SurfaceExport> {
-        let scene = self.document.scene();
-        let selected = self.document.selection.object(scene).and_then(|object| SurfaceExport::of([object]));
-        selected.or_else(|| SurfaceExport::of(&scene.objects))
-    }
-
-    /// Writes the surface.
-    pub(crate) fn export_surface(&self, ctx: &Context, path: PathBuf) {
-        let (Some(surface), Some(format)) = (self.surface(), SurfaceFormat::of(&path)) else { return };
-        let steps = self.export.steps;
-        self.export.spawn(ctx, Purpose::ExportSurface, path, move |path| {
-            write_whole(path, surface.text(format, steps).as_bytes())
-                .map_err(|error| format!("{} cannot be written: {error}", path.display()))
-        });
-    }
-
-    /// Goes on with what was asked for, says what was done.
-    pub(crate) fn poll_export(&mut self, ctx: &Context) {
-        if let Some(frame) = self.rendering.full_frame()
-            && let Some(path) = self.export.waiting.take()
-        {
-            let (frame, film) = (Arc::clone(frame), self.document.scene().film);
-            self.export.spawn(ctx, Purpose::ExportPicture, path, move |path| write(path, &frame, &film));
-        }
-        while let Ok((purpose, path, written)) = self.export.done.1.try_recv() {
-            match written {
-                Ok(()) => {
-                    self.toasts.success(format!("Exported {}", path.display()));
-                }
-                Err(error) => self.ask_again(purpose, &path, error),
-            }
-        }
-    }
+/// The selected Bezier object as a surface to export, or else all Bezier objects; `None` in a scene without any.
+pub(crate) fn surface_of(document: &Document) -> Option<SurfaceExport> {
+    let scene = document.scene();
+    let selected = document.selection.object(scene).and_then(|object| SurfaceExport::of([object]));
+    selected.or_else(|| SurfaceExport::of(&scene.objects))
 }
 
-fn write(path: &Path, frame: &Frame, film: &Film) -> Result<(), String> {
+fn write_picture(path: &Path, frame: &Frame, film: &Film) -> Result<(), String> {
     let is_exr = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
     let written = if is_exr {
         write_exr(path, &frame.image)

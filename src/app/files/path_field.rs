@@ -1,46 +1,45 @@
-//! A path that is typed: where no file dialog can be had, or where what was chosen did not work.
+//! A field for a typed path: where no file dialog is available, or where a chosen path did not work.
 
-use super::chooser::{Purpose, Request};
-use crate::app::commands::AppCommand;
+use super::chooser::Request;
+use super::paths::complete;
+use crate::app::commands::{AppCommand, Purpose};
 use crate::app::theme;
 use egui::{Button, Id, Key, TextEdit, Ui};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Longer words are no extensions.
-const LONGEST_EXTENSION: usize = 5;
-
-/// The path as it is typed now.
+/// A path that the user types, for one purpose.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PathField {
     pub(crate) purpose: Purpose,
     text: String,
-    /// Why there is no file dialog.
+    /// The reason for typing, above the field.
     note: &'static str,
-    /// Why the path that was entered last does not serve.
+    /// The reason why the last entered path did not work.
     error: Option<String>,
 }
 
 impl PathField {
-    /// In place of a file dialog.
-    pub(crate) fn instead(request: Request) -> Self {
-        let note = "This desktop shows no file dialog (it takes xdg-desktop-portal or zenity). Type the path here:";
+    /// A field in place of a file dialog that is unavailable.
+    pub(crate) fn instead_of_dialog(request: Request) -> Self {
+        let note =
+            "No file dialog is available: this desktop has neither xdg-desktop-portal nor zenity. Type the path here:";
         let text = request.proposal.display().to_string();
         Self { purpose: request.purpose, text, note, error: None }
     }
 
-    /// Once more, after this path.
-    pub(crate) fn again(purpose: Purpose, path: &std::path::Path, error: Option<String>) -> Self {
+    /// A field to correct `path`, with the reason why it did not work.
+    pub(crate) fn correcting(purpose: Purpose, path: &Path, error: Option<String>) -> Self {
         Self { purpose, text: path.display().to_string(), note: "", error }
     }
 
-    /// The field with its buttons. Enter confirms; it asks again before it replaces a file.
+    /// The field with its buttons. Enter confirms, but replaces an existing file only after a second confirmation.
     pub(crate) fn ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         let palette = theme::palette(ui.visuals().dark_mode);
         ui.heading(self.purpose.title());
         if !self.note.is_empty() {
             ui.label(self.note);
         }
-        // An id of its own: it keeps the keyboard when the text above it comes or goes.
+        // A fixed id keeps the keyboard focus when the text above the field changes.
         let field = TextEdit::singleline(&mut self.text).id(Id::unique("typed path")).desired_width(f32::INFINITY);
         let field = ui.add(field).accessible_name("Path");
         if field.changed() {
@@ -54,7 +53,7 @@ impl PathField {
         if let Some(error) = &self.error {
             ui.colored_label(palette.error, error);
         } else if replaces {
-            ui.colored_label(palette.warning, format!("{} exists and will be replaced.", target.display()));
+            ui.colored_label(palette.warning, format!("{} already exists and will be replaced.", target.display()));
         }
         ui.add_space(4.0);
         ui.horizontal(|ui| {
@@ -64,11 +63,11 @@ impl PathField {
                 Purpose::SaveScene => "Save",
                 Purpose::OpenScene | Purpose::AddSurface | Purpose::AddTexture => "Open",
             };
-            let usable = !self.text.trim().is_empty();
-            let button = ui.add_enabled(usable, Button::new(verb));
-            if button.clicked() || (entered && usable && !replaces) {
+            let is_entered = !self.text.trim().is_empty();
+            let button = ui.add_enabled(is_entered, Button::new(verb));
+            if button.clicked() || (entered && is_entered && !replaces) {
                 commands.push(AppCommand::PathEntered(path));
-            } else if entered && usable {
+            } else if entered && is_entered {
                 button.request_focus();
             }
             if ui.button("Cancel").clicked() {
@@ -78,42 +77,5 @@ impl PathField {
         if ui.memory(|memory| memory.focused().is_none()) {
             field.request_focus();
         }
-    }
-}
-
-/// The path with an extension that this purpose knows, or why it cannot have one.
-pub(crate) fn complete(purpose: Purpose, path: PathBuf) -> Result<PathBuf, String> {
-    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
-    let known = |extension: &String| purpose.extensions().contains(&extension.as_str());
-    if !purpose.writes() || extension.as_ref().is_some_and(known) {
-        return Ok(path);
-    }
-    let is_extension = |text: &String| {
-        text.len() <= LONGEST_EXTENSION
-            && text.starts_with(|c: char| c.is_ascii_alphabetic())
-            && text.chars().all(|c| c.is_ascii_alphanumeric())
-    };
-    if let Some(other) = extension.filter(is_extension) {
-        return Err(format!("A .{other} file cannot be written."));
-    }
-    // Appended, not replaced: in "view 1.5" the 5 is no extension.
-    let mut name = path.into_os_string();
-    name.push(".");
-    name.push(purpose.extensions()[0]);
-    Ok(PathBuf::from(name))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_missing_extension_is_appended_and_another_refused() {
-        let path = |purpose, path: &str| complete(purpose, PathBuf::from(path)).map(|path| path.display().to_string());
-        assert_eq!(path(Purpose::ExportPicture, "a/view 1.5"), Ok("a/view 1.5.png".to_owned()));
-        assert_eq!(path(Purpose::ExportPicture, "a/b.EXR"), Ok("a/b.EXR".to_owned()));
-        assert_eq!(path(Purpose::SaveScene, "room"), Ok("room.toml".to_owned()));
-        assert_eq!(path(Purpose::OpenScene, "room"), Ok("room".to_owned()));
-        assert_eq!(path(Purpose::ExportPicture, "x.bmp"), Err("A .bmp file cannot be written.".to_owned()));
     }
 }

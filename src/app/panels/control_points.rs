@@ -1,7 +1,6 @@
-//! The 4 x 4 control points of a patch as numbers.
+//! The 4 x 4 control points of a patch, as fields.
 
-use super::fields::{Number, vector};
-use super::properties::length_speed;
+use super::fields::{Number, length_speed, vector};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, PointIndex, Selection};
 use crate::geometry::bezier::ControlNet;
@@ -9,7 +8,7 @@ use crate::scene::{Bezier, Shape};
 use egui::{Button, DragValue, Grid, Ui};
 use std::sync::Arc;
 
-/// The chooser of the patch, and its 16 points before the transform.
+/// The choice of a patch, and its 16 control points in object space.
 pub(super) fn control_points_ui(
     ui: &mut Ui,
     document: &Document,
@@ -48,31 +47,32 @@ fn patch_ui(ui: &mut Ui, document: &Document, count: usize, commands: &mut Vec<A
 }
 
 fn net_ui(ui: &mut Ui, document: &Document, patch: usize, net: &mut ControlNet, commands: &mut Vec<AppCommand>) {
-    let spec = Number::any(length_speed(document));
+    let spec = Number::any(length_speed(&document.scene().camera));
     Grid::new("control points").num_columns(2).spacing([6.0, 2.0]).show(ui, |ui| {
         for (i, row) in net.points.iter_mut().enumerate() {
-            for (j, place) in row.iter_mut().enumerate() {
+            for (j, position) in row.iter_mut().enumerate() {
                 let point = PointIndex { patch, i, j };
                 let name = format!("P[{i}][{j}]");
                 let selected = document.selection.points.contains(&point);
                 let label = ui.selectable_label(selected, egui::RichText::new(&name).monospace());
-                if label.on_hover_text("Select this control point").clicked() {
+                if label.on_hover_text("Select this control point; Shift adds it to the selection").clicked() {
                     let mut selection = document.selection.clone();
                     selection.click_point(point, ui.input(|input| input.modifiers.shift));
                     commands.push(AppCommand::Select(selection));
                 }
-                ui.horizontal(|ui| vector(ui, &name, place, &spec));
+                ui.horizontal(|ui| vector(ui, &name, position, &spec));
                 ui.end_row();
             }
         }
     });
 }
 
+/// The edit that replaces the control net of a patch; `None` where the object or patch does not exist.
 fn replaced(document: &Document, object: usize, patch: usize, net: ControlNet) -> Option<Edit> {
     let mut edited = document.scene().objects.get(object)?.clone();
     if let Shape::Bezier(bezier) = &mut edited.shape {
         *Arc::make_mut(&mut bezier.patches).get_mut(patch)? = net;
-        // The patches are no longer what the file holds.
+        // The patches now differ from the `.bpt` file.
         bezier.file = None;
     }
     Some(Edit::Object(object, edited))

@@ -1,31 +1,32 @@
-//! Fields for names, numbers, vectors and colours, each with a name that assistive technology and tests can find it by.
+//! Fields for names, numbers, vectors and colours. Assistive technology and tests find each field by its name.
 
 use crate::app::theme;
 use crate::math::Rgb;
+use crate::scene::Camera;
 use egui::{ComboBox, DragValue, Grid, Layout, RichText, TextEdit, Ui, Vec2, vec2};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
-/// Room for the longest short number, screen points.
+/// Size of a number field, screen points: it fits the longest short number.
 const FIELD_SIZE: Vec2 = vec2(60.0, 20.0);
-/// Digits before and after the point that a field has room for.
+/// Digits that fit in a number field, before and after the decimal point together.
 const DIGITS: usize = 5;
 
-/// How a number is entered.
+/// The range, unit and dragging speed of a number field.
 #[derive(Clone, Debug)]
 pub(super) struct Number {
-    /// Shown after it.
+    /// The unit after the field; empty for none.
     pub(super) unit: &'static str,
-    /// Change for one screen point of dragging.
+    /// Change per screen point of dragging.
     pub(super) speed: f64,
     pub(super) range: RangeInclusive<f64>,
     pub(super) tip: &'static str,
 }
 
 impl Number {
-    /// Any finite number.
+    /// A number of any sign.
     pub(super) fn any(speed: f64) -> Self {
-        // Far beyond every scene, and its square is finite.
+        // The limits lie far beyond every scene, and their squares are finite.
         Self { unit: "", speed, range: -1e12..=1e12, tip: "" }
     }
 
@@ -47,15 +48,20 @@ impl Number {
     }
 }
 
-/// Rows of a label and a field.
+/// A drag step for lengths, scene units: a thousandth of the distance from the camera to its target.
+pub(super) fn length_speed(camera: &Camera) -> f64 {
+    (0.001 * camera.position.distance(camera.target)).clamp(1e-6, 1e6)
+}
+
+/// A grid of rows, each with a label and a field.
 pub(super) fn rows(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
     Grid::new(id).num_columns(2).spacing([8.0, 5.0]).show(ui, content);
 }
 
-/// A number without a label; `name` is for assistive technology.
+/// A number field without a label; assistive technology reads `name`.
 ///
-/// All have one width, or the panel would grow and the picture move while something is dragged: a number is shown short,
-/// and in full where it is typed.
+/// All number fields have one width, so that dragging a handle never resizes a panel. A field shows its number rounded, and
+/// with all digits while the user types.
 pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
     let layout = Layout::centered_and_justified(ui.layout().main_dir());
     ui.allocate_ui_with_layout(FIELD_SIZE, layout, |ui| {
@@ -63,11 +69,11 @@ pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
         let field = DragValue::new(value)
             .speed(spec.speed)
             .range(spec.range.clone())
-            // A number from the file stays as it is until it is edited.
+            // A number of the scene file stays unchanged until the user edits it.
             .clamp_existing_to_range(false)
             .custom_formatter(move |value, decimals| {
-                let typed = ctx.memory(|memory| memory.has_focus(id));
-                if typed { value.to_string() } else { short(value, *decimals.start()) }
+                let typing = ctx.memory(|memory| memory.has_focus(id));
+                if typing { value.to_string() } else { short(value, *decimals.start()) }
             })
             .update_while_editing(false);
         let response = ui.add(field.clip_text(true)).accessible_name(name);
@@ -84,7 +90,7 @@ fn unit_ui(ui: &mut Ui, unit: &str) {
     }
 }
 
-/// A number in no more room than a field has.
+/// A number rounded to the digits that fit in a field.
 fn short(value: f64, decimals: usize) -> String {
     let size = value.abs();
     if value != 0.0 && !(1e-3..1e5).contains(&size) {
@@ -109,7 +115,7 @@ pub(super) fn vector_row(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Numb
     ui.end_row();
 }
 
-/// Three numbers, with the colours of the axes.
+/// Three number fields, labelled in the colours of the axes.
 pub(super) fn vector(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Number) {
     let axes = theme::palette(ui.visuals().dark_mode).axes;
     ui.spacing_mut().item_spacing.x = 3.0;
@@ -120,14 +126,14 @@ pub(super) fn vector(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Number) 
     unit_ui(ui, spec.unit);
 }
 
-/// A row with a colour: reflectance, one part of the light a channel.
+/// A row with a reflectance: a colour with channels from 0 to 1.
 pub(super) fn color_row(ui: &mut Ui, name: &str, value: &mut Rgb) {
     ui.label(name);
     ui.horizontal(|ui| color(ui, name, value, &Number::any(0.005).within(0.0..=1.0)));
     ui.end_row();
 }
 
-/// A picker and three numbers, linear RGB.
+/// A colour picker and three number fields, linear RGB.
 pub(super) fn color(ui: &mut Ui, name: &str, value: &mut Rgb, spec: &Number) {
     ui.spacing_mut().item_spacing.x = 3.0;
     let mut picked = value.to_array();
@@ -146,18 +152,18 @@ pub(super) fn color(ui: &mut Ui, name: &str, value: &mut Rgb, spec: &Number) {
     }
 }
 
-/// The f64 with the shortest decimal form that is this f32: 0.1 is shown as 0.1, though f32 and f64 differ.
+/// The f64 with the shortest decimal form of `value`: an f32 of 0.1 becomes an f64 of 0.1, not of 0.100000001.
 fn decimal(value: f32) -> f64 {
     value.to_string().parse().unwrap_or_else(|_| f64::from(value))
 }
 
-/// A row with a light's strength: a colour whose largest channel is 1, and a factor.
+/// Two rows for a light's intensity or radiance: its largest channel, and a colour whose largest channel is 1.
 pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'static str) {
     let peak = value.max_element();
     ui.label(name);
     let mut factor = decimal(peak);
     let speed = (0.01 * factor).max(0.001);
-    let spec = Number::positive(speed).unit(unit).tip("The strongest channel");
+    let spec = Number::positive(speed).unit(unit).tip("The largest of the red, green and blue values");
     ui.horizontal(|ui| number(ui, name, &mut factor, &spec));
     ui.end_row();
     let mut hue = if peak > 0.0 { *value / peak } else { Rgb::ONE };
@@ -168,7 +174,7 @@ pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'sta
     }
 }
 
-/// A row with a text that counts when Enter or another field ends it, so that no half-typed name is ever used.
+/// A row with a text field. The text takes effect on Enter or when the field loses focus, so no half-typed name is used.
 pub(super) fn text_row(ui: &mut Ui, name: &str, value: &mut String, owner: impl std::fmt::Debug) {
     ui.label(name);
     let id = ui.make_persistent_id(format!("{name} {owner:?}"));
@@ -185,14 +191,14 @@ pub(super) fn text_row(ui: &mut Ui, name: &str, value: &mut String, owner: impl 
     ui.end_row();
 }
 
-/// A row with one name out of several.
+/// A row with a choice among names.
 pub(super) fn choice_row<'a>(ui: &mut Ui, name: &str, value: &mut String, choices: impl Iterator<Item = &'a str>) {
     ui.label(name);
     choice(ui, name, value, choices);
     ui.end_row();
 }
 
-/// One name out of several.
+/// A choice among names.
 pub(super) fn choice<'a>(ui: &mut Ui, name: &str, value: &mut String, choices: impl Iterator<Item = &'a str>) {
     let combo = ComboBox::from_id_salt(name).selected_text(value.as_str()).width(150.0).truncate();
     let response = combo.show_ui(ui, |ui| {
@@ -203,7 +209,7 @@ pub(super) fn choice<'a>(ui: &mut Ui, name: &str, value: &mut String, choices: i
     response.response.accessible_name(name);
 }
 
-/// A row with one kind out of several; `Some` when the user chose another.
+/// A row with a choice among kinds; `Some` when the user chose another kind.
 pub(super) fn kind_row<T: Copy>(ui: &mut Ui, name: &str, current: &str, kinds: &[(&'static str, T)]) -> Option<T> {
     ui.label(name);
     let mut chosen = None;
@@ -225,14 +231,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short_and_keep_their_sense() {
+    fn short_numbers_fit_and_keep_their_magnitude() {
         let shown = [0.3, -0.188_712_345, 0.5, 36.0, 1234.5678, -98_765.4, 0.0, 1e12, -2.5e-5].map(|x| short(x, 3));
         assert_eq!(shown, ["0.300", "-0.1887", "0.500", "36.000", "1234.6", "-98765", "0.000", "1.0e12", "-2.5e-5"]);
         assert!(shown.iter().all(|text| text.len() <= 7), "{shown:?}");
     }
 
     #[test]
-    fn a_channel_has_the_number_that_was_typed() {
+    fn a_channel_shows_the_typed_number() {
         for value in [0.1_f32, 1.0 / 3.0, 17.0, 0.0] {
             assert_eq!(decimal(value) as f32, value);
         }

@@ -1,24 +1,22 @@
-//! The numbers of a light.
+//! The properties of a light.
 
-use super::fields::{Number, kind_row, number_row, rows, strength_row, text_row, vector_row};
-use super::outline::emitter_kind;
-use super::properties::length_speed;
+use super::fields::{Number, kind_row, length_speed, number_row, rows, strength_row, text_row, vector_row};
 use crate::app::commands::AppCommand;
-use crate::app::document::{Document, Edit, new_items};
+use crate::app::document::{Document, Edit, kinds};
 use crate::scene::{Emitter, Light};
 use egui::Ui;
 
-/// The light's name, kind, place and strength.
+/// The light's name, kind, position and strength.
 pub(super) fn light_ui(ui: &mut Ui, document: &Document, index: usize, light: &Light, commands: &mut Vec<AppCommand>) {
     ui.strong("Light");
     let mut edited = light.clone();
     rows(ui, "light", |ui| {
         text_row(ui, "Name", &mut edited.name, ("light", index, &light.name));
-        let kinds = new_items::EMITTER_KINDS.map(|kind| (kind, kind));
-        if let Some(kind) = kind_row(ui, "Type", emitter_kind(&light.emitter), &kinds) {
-            edited.emitter = new_items::emitter_like(&light.emitter, kind);
+        let kinds = kinds::EMITTER_KINDS.map(|kind| (kind, kind));
+        if let Some(kind) = kind_row(ui, "Type", kinds::emitter_kind(&light.emitter), &kinds) {
+            edited.emitter = kinds::emitter_like(&light.emitter, kind);
         }
-        emitter_ui(ui, &mut edited.emitter, length_speed(document));
+        emitter_ui(ui, &mut edited.emitter, length_speed(&document.scene().camera));
     });
     if edited != *light {
         commands.push(AppCommand::Edit(Edit::Light(index, edited)));

@@ -1,24 +1,23 @@
-//! The numbers of a material.
+//! The properties of a material.
 
 use super::fields::{Number, choice_row, color, color_row, kind_row, number, number_row, rows, text_row};
-use super::outline::model_kind;
 use crate::app::commands::AppCommand;
-use crate::app::document::{Document, Edit, new_items};
+use crate::app::document::{Document, Edit, kinds};
 use crate::math::Rgb;
 use crate::scene::{Color, Material, MaterialModel, Relief, Scene, TextureUse};
 use egui::Ui;
 use glam::DVec2;
 
-/// Whether a material's name can be edited here.
+/// Whether a panel edits the material's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Naming {
-    /// In the material's own panel.
+    /// The material's own panel edits the name.
     Editable,
-    /// Within an object's panel, which has a name of its own.
+    /// An object's panel shows the material under a fixed name, beside the object's name field.
     Fixed,
 }
 
-/// The material's kind and numbers, and its name where `naming` says so.
+/// The material's kind and parameters, with its name where `naming` allows.
 pub(super) fn material_ui(
     ui: &mut Ui,
     document: &Document,
@@ -33,9 +32,9 @@ pub(super) fn material_ui(
         if naming == Naming::Editable {
             text_row(ui, "Name", &mut edited.name, ("material", index, &material.name));
         }
-        let kinds = new_items::MODEL_KINDS.map(|kind| (kind, kind));
-        if let Some(kind) = kind_row(ui, "Type", model_kind(&material.model), &kinds) {
-            edited.model = new_items::model_like(&material.model, kind);
+        let kinds = kinds::MODEL_KINDS.map(|kind| (kind, kind));
+        if let Some(kind) = kind_row(ui, "Type", kinds::model_kind(&material.model), &kinds) {
+            edited.model = kinds::model_like(&material.model, kind);
         }
         model_ui(ui, &mut edited.model, scene);
         relief_ui(ui, &mut edited.relief, scene);
@@ -53,7 +52,7 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
         MaterialModel::Phong { albedo, specular, exponent } => {
             surface_color_ui(ui, "Albedo", albedo, scene);
             surface_color_ui(ui, "Specular", specular, scene);
-            let spec = Number::positive(0.5).tip("Sharpness of the highlight");
+            let spec = Number::positive(0.5).tip("Phong exponent: a larger one makes a sharper highlight");
             number_row(ui, "Exponent", exponent, &spec);
         }
         MaterialModel::Polished { albedo, reflectance } => {
@@ -62,17 +61,18 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
         }
         MaterialModel::Mirror { reflectance } => surface_color_ui(ui, "Reflectance", reflectance, scene),
         MaterialModel::Glass { ior, tint, absorption } => {
-            let spec = Number::positive(0.002).within(1.0..=4.0).tip("Index of refraction: water 1.33, glass 1.5");
-            number_row(ui, "Refraction", ior, &spec);
+            let spec =
+                Number::positive(0.002).within(1.0..=4.0).tip("Index of refraction: 1.33 for water, 1.5 for glass");
+            number_row(ui, "IOR", ior, &spec);
             surface_color_ui(ui, "Tint", tint, scene);
-            ui.label("Absorption").on_hover_text("Per scene unit of the way inside");
+            ui.label("Absorption").on_hover_text("Absorption coefficient, per scene unit inside the glass");
             ui.horizontal(|ui| color(ui, "Absorption", absorption, &Number::positive(0.01)));
             ui.end_row();
         }
     }
 }
 
-/// A colour, or a texture where the scene has any.
+/// A colour, or a texture if the scene has one.
 fn surface_color_ui(ui: &mut Ui, name: &str, color: &mut Color, scene: &Scene) {
     match color {
         Color::Constant(value) => color_row(ui, name, value),
@@ -97,7 +97,7 @@ fn texture_ui(ui: &mut Ui, name: &str, map: &mut TextureUse, scene: &Scene) {
     choice_row(ui, name, &mut map.texture, names);
     ui.label("");
     ui.horizontal(|ui| {
-        let spec = Number::any(0.02).tip("Repetitions along u and v");
+        let spec = Number::any(0.02).tip("Repetitions of the texture along u and v");
         ui.weak("repeat u");
         number(ui, &format!("{name} repeat u"), &mut map.scale.x, &spec);
         ui.weak("v");
@@ -132,7 +132,7 @@ fn relief_ui(ui: &mut Ui, relief: &mut Option<Relief>, scene: &Scene) {
         }
         Some(Relief::Height { map, depth }) => {
             texture_ui(ui, "Height map", map, scene);
-            number_row(ui, "Depth", depth, &Number::any(0.001).tip("Height of white over black, scene units"));
+            number_row(ui, "Depth", depth, &Number::any(0.001).tip("Height of white above black, scene units"));
         }
         None => {}
     }

@@ -1,9 +1,27 @@
-//! The side panels. Each reads the document and pushes commands; none changes anything itself.
+//! The side panels. Each panel reads the document or the rendering state and pushes commands.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `numbers` | numbers as text: short, grouped, as a duration, in percent |
+//! | `fields` | fields for names, numbers, vectors and colours |
+//! | `control_points` | the 4 x 4 control points of a patch |
+//! | `lights` | the properties of a light |
+//! | `materials` | the properties of a material |
+//! | `objects` | the properties of an object, with its control points and its material |
+//! | `settings` | the camera, the picture, the limits of light transport |
+//! | `textures` | the properties of a texture |
+//! | `properties` | the properties of the selected item |
+//! | `outline` | the list of all items in the scene |
+//! | `plan` | the rendered and the skipped components, with reasons |
+//! | `error_plot` | the plot of the error estimate over time |
+//! | `progress` | display settings, counts, error, time of each pass |
 
 mod control_points;
+mod error_plot;
 mod fields;
 mod lights;
 mod materials;
+mod numbers;
 mod objects;
 mod outline;
 mod plan;
@@ -12,6 +30,7 @@ mod properties;
 mod settings;
 mod textures;
 
+pub(crate) use numbers::{duration, grouped};
 pub(crate) use outline::outline_ui;
-pub(crate) use progress::{ErrorCurve, duration, grouped, progress_ui};
+pub(crate) use progress::progress_ui;
 pub(crate) use properties::properties_ui;

@@ -1,17 +1,15 @@
-//! The numbers of an object.
+//! The properties of an object.
 
 use super::control_points::control_points_ui;
-use super::fields::{Number, choice_row, number_row, rows, text_row, vector_row};
+use super::fields::{Number, choice_row, length_speed, number_row, rows, text_row, vector_row};
 use super::materials::{Naming, material_ui};
-use super::outline::shape_kind;
-use super::properties::length_speed;
 use crate::app::commands::AppCommand;
-use crate::app::document::{Document, Edit};
+use crate::app::document::{Document, Edit, kinds};
 use crate::scene::{Object, Shape, Transform};
 use egui::{CollapsingHeader, Ui};
 use glam::DVec3;
 
-/// The object's name, form and material.
+/// The object's name, shape and material.
 pub(super) fn object_ui(
     ui: &mut Ui,
     document: &Document,
@@ -19,13 +17,13 @@ pub(super) fn object_ui(
     object: &Object,
     commands: &mut Vec<AppCommand>,
 ) {
-    ui.strong(format!("Object: {}", shape_kind(&object.shape)));
+    ui.strong(format!("Object: {}", kinds::shape_kind(&object.shape)));
     let mut edited = object.clone();
     let materials = document.scene().materials.iter().map(|material| material.name.as_str());
     rows(ui, "object", |ui| {
         text_row(ui, "Name", &mut edited.name, ("object", index, &object.name));
         choice_row(ui, "Material", &mut edited.material, materials);
-        shape_ui(ui, &mut edited.shape, length_speed(document));
+        shape_ui(ui, &mut edited.shape, length_speed(&document.scene().camera));
     });
     if edited != *object {
         commands.push(AppCommand::Edit(Edit::Object(index, edited)));
@@ -36,11 +34,11 @@ pub(super) fn object_ui(
         });
     }
     let material = document.scene().materials.iter().position(|material| material.name == object.material);
-    if let Some(place) = material {
+    if let Some(index) = material {
         CollapsingHeader::new(format!("Material: {}", object.material)).id_salt("material").default_open(true).show(
             ui,
             |ui| {
-                material_ui(ui, document, place, &document.scene().materials[place], Naming::Fixed, commands);
+                material_ui(ui, document, index, &document.scene().materials[index], Naming::Fixed, commands);
             },
         );
     }
@@ -69,13 +67,13 @@ fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {
 
 fn u_axis_ui(ui: &mut Ui, u_axis: &mut Option<DVec3>) {
     ui.label("Texture");
-    let mut own = u_axis.is_some();
+    let mut custom = u_axis.is_some();
     if ui
-        .checkbox(&mut own, "own u axis")
-        .on_hover_text("Otherwise u runs along x, or z where the normal is along x")
+        .checkbox(&mut custom, "custom u axis")
+        .on_hover_text("By default u runs along x, or along z where the normal is along x")
         .changed()
     {
-        *u_axis = own.then_some(DVec3::X);
+        *u_axis = custom.then_some(DVec3::X);
     }
     ui.end_row();
     if let Some(axis) = u_axis {
@@ -84,7 +82,7 @@ fn u_axis_ui(ui: &mut Ui, u_axis: &mut Option<DVec3>) {
 }
 
 fn transform_ui(ui: &mut Ui, transform: &mut Transform, speed: f64) {
-    vector_row(ui, "Move", &mut transform.translate, &Number::any(speed));
+    vector_row(ui, "Translate", &mut transform.translate, &Number::any(speed));
     vector_row(ui, "Rotate", &mut transform.rotate, &Number::any(0.5).unit("°"));
     vector_row(ui, "Scale", &mut transform.scale, &Number::any(0.005));
 }

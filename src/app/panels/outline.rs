@@ -1,18 +1,16 @@
-//! The list of everything in the scene.
+//! The list of all items in the scene.
 
-use crate::app::commands::{Action, AppCommand};
-use crate::app::document::{Document, Edit, Item, Selection, new_items};
-use crate::app::files::Purpose;
-use crate::scene::{Emitter, Encoding, MaterialModel, Shape};
+use crate::app::commands::{Action, AppCommand, Purpose};
+use crate::app::document::{Document, Edit, Item, Selection, kinds, new_items};
 use egui::{Align, Button, CollapsingHeader, Layout, Ui, UiBuilder};
 
-/// Between the rows, screen points: little, so that all sections are in sight.
+/// Spacing between rows, screen points: small, so that all sections fit in the panel.
 const SPACING: f32 = 1.0;
 
-/// A part of the list that can be folded.
+/// A collapsible section of the list.
 struct Section {
     title: &'static str,
-    /// At the start.
+    /// Whether the section starts open.
     open: bool,
     item: fn(usize) -> Item,
 }
@@ -22,13 +20,13 @@ const LIGHTS: Section = Section { title: "Lights", open: true, item: Item::Light
 const MATERIALS: Section = Section { title: "Materials", open: false, item: Item::Material };
 const TEXTURES: Section = Section { title: "Textures", open: false, item: Item::Texture };
 
-/// The scene as a list; a click selects.
+/// The scene as a list; a click selects an item.
 pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
     ui.spacing_mut().item_spacing.y = SPACING;
     row_ui(ui, document, Item::Camera, "Camera", "", commands);
     row_ui(ui, document, Item::Settings, "Picture and rendering", "", commands);
-    let objects = scene.objects.iter().map(|object| (object.name.as_str(), shape_kind(&object.shape)));
+    let objects = scene.objects.iter().map(|object| (object.name.as_str(), kinds::shape_kind(&object.shape)));
     section_ui(ui, &OBJECTS, objects, document, commands, |ui, commands| {
         for (label, shape) in new_items::shapes() {
             if ui.button(label).clicked() {
@@ -39,7 +37,7 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
             commands.push(AppCommand::AddFrom(Purpose::AddSurface));
         }
     });
-    let lights = scene.lights.iter().map(|light| (light.name.as_str(), emitter_kind(&light.emitter)));
+    let lights = scene.lights.iter().map(|light| (light.name.as_str(), kinds::emitter_kind(&light.emitter)));
     section_ui(ui, &LIGHTS, lights, document, commands, |ui, commands| {
         for (label, emitter) in new_items::emitters() {
             if ui.button(label).clicked() {
@@ -47,7 +45,7 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
             }
         }
     });
-    let materials = scene.materials.iter().map(|material| (material.name.as_str(), model_kind(&material.model)));
+    let materials = scene.materials.iter().map(|material| (material.name.as_str(), kinds::model_kind(&material.model)));
     section_ui(ui, &MATERIALS, materials, document, commands, |ui, commands| {
         for (label, model) in new_items::models() {
             if ui.button(label).clicked() {
@@ -55,7 +53,7 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
             }
         }
     });
-    let textures = scene.textures.iter().map(|texture| (texture.name.as_str(), encoding_kind(texture.encoding)));
+    let textures = scene.textures.iter().map(|texture| (texture.name.as_str(), kinds::encoding_kind(texture.encoding)));
     section_ui(ui, &TEXTURES, textures, document, commands, |ui, commands| {
         if ui.button("from a PNG or JPEG file…").clicked() {
             commands.push(AppCommand::AddFrom(Purpose::AddTexture));
@@ -78,7 +76,7 @@ fn section_ui<'a>(
             row_ui(ui, document, (section.item)(index), name, kind, commands);
         }
     });
-    // At the right end of the header's row, beside the header.
+    // The button stands at the right end of the header's row.
     let row = header.header_response.rect.with_max_x(ui.max_rect().right());
     let builder = UiBuilder::new().max_rect(row).layout(Layout::right_to_left(Align::Center));
     let add = ui.new_child(builder).menu_button("+ Add", |ui| add_ui(ui, commands)).response;
@@ -101,43 +99,5 @@ fn row_ui(ui: &mut Ui, document: &Document, item: Item, name: &str, kind: &str, 
                 }
             }
         });
-    }
-}
-
-/// What a shape is called.
-pub(super) fn shape_kind(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Quad { .. } => "quad",
-        Shape::Sphere { .. } => "sphere",
-        Shape::Plane { .. } => "plane",
-        Shape::Bezier(_) => "bezier",
-    }
-}
-
-/// What a kind of light is called.
-pub(super) fn emitter_kind(emitter: &Emitter) -> &'static str {
-    match emitter {
-        Emitter::Point { .. } => "point",
-        Emitter::Sphere { .. } => "sphere",
-        Emitter::Quad { .. } => "quad",
-    }
-}
-
-/// What a kind of material is called.
-pub(super) fn model_kind(model: &MaterialModel) -> &'static str {
-    match model {
-        MaterialModel::Diffuse { .. } => "diffuse",
-        MaterialModel::Phong { .. } => "phong",
-        MaterialModel::Polished { .. } => "polished",
-        MaterialModel::Mirror { .. } => "mirror",
-        MaterialModel::Glass { .. } => "glass",
-    }
-}
-
-/// What a kind of encoding is called.
-fn encoding_kind(encoding: Encoding) -> &'static str {
-    match encoding {
-        Encoding::Srgb => "sRGB",
-        Encoding::Linear => "linear",
     }
 }

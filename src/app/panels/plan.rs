@@ -1,10 +1,10 @@
-//! What is rendered, what is skipped, and why.
+//! The rendered and the skipped components, with reasons.
 
 use crate::app::theme;
 use crate::engine::PlanSummary;
 use egui::Ui;
 
-/// The plan, a line for each of its parts.
+/// The plan, one line per note.
 pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
     let palette = theme::palette(ui.visuals().dark_mode);
     for note in &plan.notes {

@@ -1,17 +1,11 @@
-//! The numbers of what is selected.
+//! The properties of the selected item.
 
 use super::{lights, materials, objects, settings, textures};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Item};
 use egui::Ui;
 
-/// A sensible step for lengths: a thousandth of the distance between the eye and what it looks at.
-pub(super) fn length_speed(document: &Document) -> f64 {
-    let camera = document.scene().camera;
-    (0.001 * camera.position.distance(camera.target)).clamp(1e-6, 1e6)
-}
-
-/// The numbers of what is selected.
+/// The properties of the selected item.
 pub(crate) fn properties_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
     match document.selection.item {

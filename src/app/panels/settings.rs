@@ -1,31 +1,30 @@
-//! The camera, the picture and the light transport.
+//! The camera, the picture and the limits of light transport.
 
-use super::fields::{Number, color, number_row, rows, text_row, vector_row};
-use super::properties::length_speed;
+use super::fields::{Number, color, length_speed, number_row, rows, text_row, vector_row};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit};
 use crate::scene::{Film, Render, ToneCurve};
 use egui::{ComboBox, DragValue, Slider, Ui};
 
-/// The eye.
+/// The camera's position, direction and field of view.
 pub(super) fn camera_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let camera = document.scene().camera;
     let mut edited = camera;
-    let length = Number::any(length_speed(document));
+    let length = Number::any(length_speed(&document.scene().camera));
     ui.strong("Camera");
     rows(ui, "camera", |ui| {
         vector_row(ui, "Position", &mut edited.position, &length);
         vector_row(ui, "Target", &mut edited.target, &length);
         vector_row(ui, "Up", &mut edited.up, &Number::any(0.01));
-        let angle = Number::any(0.1).within(0.1..=179.0).unit("°").tip("The whole vertical angle of view");
-        number_row(ui, "Angle", &mut edited.fov_y, &angle);
+        let fov = Number::any(0.1).within(0.1..=179.0).unit("°").tip("Vertical field of view");
+        number_row(ui, "Field of view", &mut edited.fov_y, &fov);
     });
     if edited != camera {
         commands.push(AppCommand::Edit(Edit::Camera(edited)));
     }
 }
 
-/// The scene's name, the picture and the light transport.
+/// The scene's name, the picture and the limits of light transport.
 pub(super) fn settings_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
     let (mut name, mut film, mut render) = (scene.name.clone(), scene.film, scene.render);
@@ -47,7 +46,7 @@ pub(super) fn settings_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<A
     }
 }
 
-/// How the picture is shown.
+/// The exposure and the tone curve, as two rows.
 pub(super) fn display_rows(ui: &mut Ui, film: &mut Film) {
     ui.label("Exposure");
     exposure_ui(ui, film);
@@ -69,14 +68,16 @@ fn size_ui(ui: &mut Ui, film: &mut Film) {
     ui.end_row();
 }
 
-/// A slider in stops.
+/// The exposure slider, stops.
 fn exposure_ui(ui: &mut Ui, film: &mut Film) {
     let slider = Slider::new(&mut film.exposure, -8.0..=8.0).fixed_decimals(1).step_by(0.1).suffix(" EV");
     let slider = slider.clamping(egui::SliderClamping::Edits);
-    ui.add(slider).accessible_name("Exposure").on_hover_text("For the screen and PNG files; restarts nothing");
+    ui.add(slider)
+        .accessible_name("Exposure")
+        .on_hover_text("Exposure of the display and of PNG files; does not restart rendering");
 }
 
-/// The choice of how radiance becomes what the screen shows.
+/// The choice of the tone curve.
 fn tone_curve_ui(ui: &mut Ui, film: &mut Film) {
     let label = |curve| match curve {
         ToneCurve::Srgb => "sRGB, clipped",
@@ -96,7 +97,7 @@ fn render_ui(ui: &mut Ui, render: &mut Render) {
     let field = DragValue::new(&mut render.max_bounces).range(1..=1024).speed(0.1).update_while_editing(false);
     ui.add(field)
         .accessible_name("Bounces")
-        .on_hover_text("Scattering events on the longest path; 1 is direct light alone");
+        .on_hover_text("Maximum scattering events on a path; 1 renders direct light only");
     ui.end_row();
     ui.label("Background");
     ui.horizontal(|ui| color(ui, "Background", &mut render.background, &Number::positive(0.005)));

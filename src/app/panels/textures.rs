@@ -1,4 +1,4 @@
-//! The file of a texture.
+//! The properties of a texture.
 
 use super::fields::{rows, text_row};
 use crate::app::commands::AppCommand;
@@ -15,12 +15,13 @@ pub(super) fn texture_ui(ui: &mut Ui, index: usize, texture: &Texture, commands:
         text_row(ui, "File", &mut edited.file, ("texture file", index, &texture.file));
         ui.label("Encoding");
         ui.horizontal(|ui| {
-            ui.radio_value(&mut edited.encoding, Encoding::Srgb, "sRGB").on_hover_text("The file holds colours");
-            ui.radio_value(&mut edited.encoding, Encoding::Linear, "linear").on_hover_text("The file holds numbers");
+            ui.radio_value(&mut edited.encoding, Encoding::Srgb, "sRGB").on_hover_text("The image holds sRGB colours");
+            ui.radio_value(&mut edited.encoding, Encoding::Linear, "linear")
+                .on_hover_text("The image holds linear values, as normal and height maps do");
         });
         ui.end_row();
     });
-    ui.weak("A PNG or JPEG file, relative to the scene file");
+    ui.weak("A PNG or JPEG file; a relative path starts at the scene file's folder");
     if edited != *texture {
         commands.push(AppCommand::Edit(Edit::Texture(index, edited)));
     }

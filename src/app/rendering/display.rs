@@ -1,4 +1,4 @@
-//! From linear light to a texture, off the UI thread. Exposure and tone curve live here and restart nothing.
+//! Tone mapping of linear images to a texture, off the UI thread. Exposure and tone curve restart no rendering.
 
 use crate::film::{LinearImage, ToneMap};
 use crate::scene::ToneCurve;
@@ -6,24 +6,24 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use egui::{Color32, ColorImage, Context, TextureFilter, TextureHandle, TextureOptions};
 use std::sync::Arc;
 
-/// A picture and how to show it.
+/// A linear image with its display settings.
 #[derive(Clone, Debug)]
 struct Job {
     image: Arc<LinearImage>,
     exposure: f64,
     tone_curve: ToneCurve,
-    /// Whether a pixel of it is a pixel of the film.
+    /// Whether the image has the film's resolution; a draft may have fewer pixels.
     full_size: bool,
 }
 
-/// A picture for the screen, and whether it is of the film's size.
+/// A tone-mapped image, and whether it has the film's resolution.
 type Pixels = (Arc<ColorImage>, bool);
 
-/// Keeps a texture of the newest picture.
+/// The texture of the newest picture.
 pub(crate) struct Display {
     texture: Option<TextureHandle>,
-    shown: Option<Job>,
-    /// The newest picture that waits for the one under work.
+    requested: Option<Job>,
+    /// The newest image, which waits until the current job is done.
     waiting: Option<Job>,
     busy: bool,
     done: (Sender<Pixels>, Receiver<Pixels>),
@@ -31,7 +31,7 @@ pub(crate) struct Display {
 
 impl Default for Display {
     fn default() -> Self {
-        Self { texture: None, shown: None, waiting: None, busy: false, done: bounded(1) }
+        Self { texture: None, requested: None, waiting: None, busy: false, done: bounded(1) }
     }
 }
 
@@ -52,24 +52,24 @@ impl Job {
 }
 
 impl Display {
-    /// The texture, once there is one.
+    /// The texture; `None` before the first picture.
     pub(crate) fn texture(&self) -> Option<&TextureHandle> {
         self.texture.as_ref()
     }
 
-    /// Shows this picture as soon as it can; of several that come meanwhile, the newest.
+    /// Requests a texture of this image. While a job is busy, a newer request replaces a waiting one.
     pub(crate) fn show(&mut self, ctx: &Context, image: &Arc<LinearImage>, film: &crate::scene::Film) {
         let full_size = (image.width, image.height) == (film.width, film.height);
         let job = Job { image: Arc::clone(image), exposure: film.exposure, tone_curve: film.tone_curve, full_size };
-        if self.shown.as_ref().is_some_and(|shown| shown.same_result(&job)) {
+        if self.requested.as_ref().is_some_and(|requested| requested.same_result(&job)) {
             return;
         }
-        self.shown = Some(job.clone());
+        self.requested = Some(job.clone());
         self.waiting = Some(job);
         self.start(ctx);
     }
 
-    /// Takes what is done and starts what waits. To be called once a frame.
+    /// Uploads a finished image and starts the waiting job. Call it once per frame.
     pub(crate) fn poll(&mut self, ctx: &Context) {
         if let Ok((image, full_size)) = self.done.1.try_recv() {
             self.busy = false;
@@ -86,7 +86,7 @@ impl Display {
         self.busy = true;
         let (done, ctx) = (self.done.0.clone(), ctx.clone());
         rayon::spawn(move || {
-            // There is one job at a time, so the channel has room; it is closed only when nobody looks any more.
+            // One job runs at a time, so the channel has room; it is closed only after the window.
             if done.try_send((job.run(), job.full_size)).is_ok() {
                 ctx.request_repaint();
             }
@@ -94,7 +94,7 @@ impl Display {
     }
 
     fn upload(&mut self, ctx: &Context, image: Arc<ColorImage>, full_size: bool) {
-        // Whole pixels are shown as they are; a draft of fewer pixels looks calmer when smoothed.
+        // A zoomed picture shows its pixels; a draft with fewer pixels is interpolated, which looks calmer.
         let magnification = if full_size { TextureFilter::Nearest } else { TextureFilter::Linear };
         let options = TextureOptions { magnification, minification: TextureFilter::Linear, ..Default::default() };
         match &mut self.texture {

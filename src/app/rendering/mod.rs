@@ -1,12 +1,17 @@
-//! The engine as the window sees it.
+//! The engine as the window sees it: scenes and commands go out, frames come in and become a texture.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `state` | [`Rendering`]: the newest frame and the engine's status |
+//! | `submission` | the scene that the engine renders, and the problems that keep a scene from it |
+//! | `error_curve` | [`ErrorCurve`]: the error estimate over time |
+//! | `state` | [`Rendering`]: the newest frame, the engine's status, the commands for the engine |
 //! | `display` | [`Display`]: the texture of the newest picture, tone-mapped off the UI thread |
 
 mod display;
+mod error_curve;
 mod state;
+mod submission;
 
 pub(crate) use display::Display;
+pub(crate) use error_curve::ErrorCurve;
 pub(crate) use state::Rendering;

@@ -1,39 +1,46 @@
-//! What the engine has shown so far.
+//! The newest frame, the engine's status, and the commands for the engine.
 
-use crate::app::panels::ErrorCurve;
-use crate::engine::{Frame, Status};
+use super::error_curve::ErrorCurve;
+use super::submission::Submission;
+use crate::engine::{Command, Frame, Status};
+use crate::scene::{Problem, SceneFile};
 use std::sync::Arc;
 
-/// Beyond what eyes can tell; a computer that is left alone should not work for more.
-const FIRST_TARGET: f64 = 0.001;
+/// The relative error at which rendering stops by default: no eye sees a smaller one, so an unattended window stops
+/// computing there.
+const DEFAULT_TARGET: f64 = 0.001;
 
-/// The newest frame and what is known of the work on the next.
+/// The engine as the window sees it: frames and status come in, commands go out.
 #[derive(Debug)]
 pub(crate) struct Rendering {
     frame: Option<Arc<Frame>>,
     status: Status,
-    /// What was asked for; the engine pauses after the iteration at hand.
-    pub(crate) paused: bool,
-    /// Of the error estimate: at it the engine rests.
-    pub(crate) target: Option<f64>,
+    /// The user's wish; the engine pauses after the current iteration.
+    paused: bool,
+    target: Option<f64>,
     curve: ErrorCurve,
+    submission: Submission,
+    commands: Vec<Command>,
 }
 
-impl Default for Rendering {
-    fn default() -> Self {
+impl Rendering {
+    /// No frame yet, and the default target error.
+    pub(crate) fn new() -> Self {
         Self {
             frame: None,
             status: Status::Idle,
             paused: false,
-            target: Some(FIRST_TARGET),
+            target: Some(DEFAULT_TARGET),
             curve: ErrorCurve::default(),
+            submission: Submission::default(),
+            commands: vec![Command::Target(Some(DEFAULT_TARGET))],
         }
     }
-}
 
-impl Rendering {
-    /// Takes the newest frame.
-    pub(crate) fn receive(&mut self, frame: Arc<Frame>) {
+    /// Takes the engine's status, and its newest frame if it made one since the last call.
+    pub(crate) fn receive(&mut self, frame: Option<Arc<Frame>>, status: Status) {
+        self.status = status;
+        let Some(frame) = frame else { return };
         self.curve.begin(frame.generation);
         if let Some(error) = frame.stats.error_estimate.filter(|_| !frame.draft) {
             self.curve.push(frame.generation, frame.stats.seconds, error);
@@ -41,17 +48,59 @@ impl Rendering {
         self.frame = Some(frame);
     }
 
-    /// What the engine does.
-    pub(crate) fn set_status(&mut self, status: Status) {
-        self.status = status;
+    /// Sends the scene to the engine if the scene is valid and has another picture than the scene that was sent last.
+    pub(crate) fn submit(&mut self, file: &Arc<SceneFile>) {
+        self.commands.extend(self.submission.update(file).map(Command::Show));
     }
 
-    /// What the engine does.
+    /// Whether the engine renders the picture of this scene.
+    pub(crate) fn renders(&self, file: &SceneFile) -> bool {
+        self.submission.is_sent(file)
+    }
+
+    /// Takes `file` as the scene that the engine renders: saving changed its location, but not its picture.
+    pub(crate) fn relocate(&mut self, file: &Arc<SceneFile>) {
+        self.submission.relocate(file);
+    }
+
+    /// Pauses or resumes the engine.
+    pub(crate) fn toggle_pause(&mut self) {
+        self.paused = !self.paused;
+        self.commands.push(if self.paused { Command::Pause } else { Command::Resume });
+    }
+
+    /// Restarts the picture from the first iteration.
+    pub(crate) fn restart(&mut self) {
+        self.commands.push(Command::Restart);
+    }
+
+    /// Stops rendering at this relative error; `None` never stops.
+    pub(crate) fn set_target(&mut self, target: Option<f64>) {
+        self.target = target;
+        self.commands.push(Command::Target(target));
+    }
+
+    /// Takes the commands for the engine, in their order.
+    pub(crate) fn take_commands(&mut self) -> Vec<Command> {
+        std::mem::take(&mut self.commands)
+    }
+
+    /// The engine's status.
     pub(crate) fn status(&self) -> &Status {
         &self.status
     }
 
-    /// The newest frame.
+    /// Whether the user has paused rendering; the engine may still finish an iteration.
+    pub(crate) fn is_paused(&self) -> bool {
+        self.paused
+    }
+
+    /// The relative error at which rendering stops; `None` never stops.
+    pub(crate) fn target(&self) -> Option<f64> {
+        self.target
+    }
+
+    /// The newest frame; `None` before the first draft.
     pub(crate) fn frame(&self) -> Option<&Arc<Frame>> {
         self.frame.as_ref()
     }
@@ -61,8 +110,18 @@ impl Rendering {
         self.frame.as_ref().filter(|frame| !frame.draft)
     }
 
-    /// The error estimate over time.
+    /// The error estimate of the newest frame's generation over time.
     pub(crate) fn error_curve(&self) -> &ErrorCurve {
         &self.curve
+    }
+
+    /// The problems of the present scene; the engine cannot render a scene with problems.
+    pub(crate) fn problems(&self) -> &[Problem] {
+        self.submission.problems()
+    }
+
+    /// Whether the newest frame shows the present scene, or a newer frame soon will.
+    pub(crate) fn is_current(&self) -> bool {
+        self.problems().is_empty() && !matches!(self.status, Status::Failed(_))
     }
 }

@@ -1,25 +1,38 @@
-//! The menu bar, with the buttons that are needed all the time.
+//! The menu bar, with buttons for frequent actions.
 
 use crate::app::commands::{Action, AppCommand, Next};
-use crate::app::editor::Editor;
+use crate::app::document::Document;
 use crate::scene::built_in_scenes;
 use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
 
-/// Menus on the left, buttons on the right.
-pub(crate) fn menu_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
+/// The parts of the window that the user can hide, for the menu's check marks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Visibility {
+    pub(crate) handles: bool,
+    pub(crate) panels: bool,
+}
+
+/// The menu bar: menus on the left, buttons on the right.
+pub(crate) fn menu_ui(
+    ui: &mut Ui,
+    document: &Document,
+    paused: bool,
+    visible: Visibility,
+    commands: &mut Vec<AppCommand>,
+) {
     MenuBar::new().ui(ui, |ui| {
         ui.menu_button("File", |ui| file_ui(ui, commands));
-        ui.menu_button("Edit", |ui| edit_ui(ui, editor, commands));
-        ui.menu_button("View", |ui| view_ui(ui, editor, commands));
+        ui.menu_button("Edit", |ui| edit_ui(ui, document, commands));
+        ui.menu_button("View", |ui| view_ui(ui, visible, commands));
         ui.menu_button("Render", |ui| {
-            let pause = if editor.rendering.paused { "Resume" } else { "Pause" };
+            let pause = if paused { "Resume" } else { "Pause" };
             item_ui(ui, Action::TogglePause, pause, true, commands);
             for action in [Action::Restart, Action::Brighter, Action::Darker] {
                 item_ui(ui, action, action.label(), true, commands);
             }
         });
         ui.menu_button("Help", |ui| item_ui(ui, Action::Help, Action::Help.label(), true, commands));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| buttons_ui(ui, editor, commands));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| buttons_ui(ui, paused, commands));
     });
 }
 
@@ -30,7 +43,7 @@ fn file_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     ui.menu_button("Examples", |ui| {
         for example in built_in_scenes() {
             if ui.button(example.title).clicked() {
-                commands.push(AppCommand::GoTo(Next::Example(example.name)));
+                commands.push(AppCommand::Leave(Next::Example(example.name)));
             }
         }
     });
@@ -42,8 +55,7 @@ fn file_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     item_ui(ui, Action::Quit, Action::Quit.label(), true, commands);
 }
 
-fn edit_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
-    let document = &editor.document;
+fn edit_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     for (action, what) in [(Action::Undo, document.undoable()), (Action::Redo, document.redoable())] {
         let label = format!("{} {}", action.label(), what.unwrap_or_default());
         item_ui(ui, action, label.trim_end(), what.is_some(), commands);
@@ -54,14 +66,12 @@ fn edit_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
     }
 }
 
-fn view_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
+fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
     for action in [Action::Fit, Action::OneToOne, Action::ZoomIn, Action::ZoomOut] {
         item_ui(ui, action, action.label(), true, commands);
     }
     ui.separator();
-    for (action, on) in
-        [(Action::ToggleHandles, editor.canvas.show_handles), (Action::TogglePanels, editor.show_panels)]
-    {
+    for (action, on) in [(Action::ToggleHandles, visible.handles), (Action::TogglePanels, visible.panels)] {
         let mut on = on;
         let text = format!("{}  ({})", action.label(), action.shortcut(ui.ctx()));
         if ui.checkbox(&mut on, text).clicked() {
@@ -71,9 +81,11 @@ fn view_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
     ui.separator();
     let current = ui.ctx().options(|options| options.theme_preference);
-    for (theme, label) in
-        [(ThemePreference::Dark, "Dark"), (ThemePreference::Light, "Light"), (ThemePreference::System, "As the system")]
-    {
+    for (theme, label) in [
+        (ThemePreference::Dark, "Dark"),
+        (ThemePreference::Light, "Light"),
+        (ThemePreference::System, "Follow the system"),
+    ] {
         if ui.radio(current == theme, label).clicked() {
             commands.push(AppCommand::Theme(theme));
         }
@@ -87,9 +99,9 @@ fn item_ui(ui: &mut Ui, action: Action, label: &str, enabled: bool, commands: &m
     }
 }
 
-fn buttons_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
-    let pause = if editor.rendering.paused { "▶ Resume" } else { "⏸ Pause" };
-    // From right to left.
+fn buttons_ui(ui: &mut Ui, paused: bool, commands: &mut Vec<AppCommand>) {
+    let pause = if paused { "▶ Resume" } else { "⏸ Pause" };
+    // The layout adds buttons from right to left.
     for (action, label) in
         [(Action::OneToOne, "1:1"), (Action::Fit, "Fit"), (Action::Restart, "↺ Restart"), (Action::TogglePause, pause)]
     {

@@ -1,40 +1,47 @@
-//! What the user must know now, above the picture: why it is not the scene's, what the window waits for.
+//! Messages over the picture: failures, problems of the scene, a slow file dialog.
 
 use crate::app::commands::AppCommand;
-use crate::app::editor::Editor;
+use crate::app::files::Chooser;
 use crate::app::theme;
 use crate::engine::Status;
+use crate::scene::Problem;
 use egui::{Color32, Frame, ScrollArea, Ui};
 
-/// Of a long list of problems, screen points: the picture stays in sight.
+/// Maximum height of the list of problems, screen points: the picture stays visible.
 const MAX_HEIGHT: f32 = 120.0;
 
-/// Nothing where all is well.
-pub(crate) fn notices_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCommand>) {
+/// Shows a failure of the engine, the problems that keep the scene from being rendered, and a slow file dialog.
+pub(crate) fn notices_ui(
+    ui: &mut Ui,
+    status: &Status,
+    problems: &[Problem],
+    chooser: &Chooser,
+    commands: &mut Vec<AppCommand>,
+) {
     let palette = theme::palette(ui.visuals().dark_mode);
-    if let Status::Failed(message) = editor.rendering.status() {
+    if let Status::Failed(message) = status {
         notice_ui(ui, palette.error, |ui| {
             ui.colored_label(palette.error, format!("⚠ Rendering failed: {message}"));
-            ui.label("The scene is unharmed: change it, or restart.");
+            ui.label("The scene is unchanged. Edit it, or restart rendering.");
         });
     }
-    if !editor.problems.is_empty() {
+    if !problems.is_empty() {
         notice_ui(ui, palette.warning, |ui| {
             ui.colored_label(
                 palette.warning,
-                "⚠ This scene cannot be rendered; the picture shows the last one that could:",
+                "⚠ This scene cannot be rendered. The picture shows the last valid scene. Problems:",
             );
             ScrollArea::vertical().max_height(MAX_HEIGHT).show(ui, |ui| {
-                for problem in &editor.problems {
+                for problem in problems {
                     ui.label(problem.to_string());
                 }
             });
         });
     }
-    if let Some(request) = editor.chooser.pending().filter(|_| editor.chooser.is_slow(ui.ctx())) {
+    if let Some(request) = chooser.pending().filter(|_| chooser.is_slow(ui.ctx())) {
         notice_ui(ui, palette.plot, |ui| {
             ui.horizontal(|ui| {
-                ui.label(format!("Waiting for the file dialog \"{}\".", request.purpose.title()));
+                ui.label(format!("Waiting for the file dialog \"{}\"…", request.purpose.title()));
                 if ui.button("Type the path instead").clicked() {
                     commands.push(AppCommand::TypePath);
                 }
@@ -43,6 +50,7 @@ pub(crate) fn notices_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<AppCom
     }
 }
 
+/// A framed message.
 fn notice_ui(ui: &mut Ui, edge: Color32, content: impl FnOnce(&mut Ui)) {
     let frame =
         Frame::group(ui.style()).fill(ui.visuals().panel_fill).stroke(egui::Stroke::new(1.0, edge)).outer_margin(4.0);

@@ -31,19 +31,19 @@ fn a_dragged_control_point_follows_the_pointer_in_one_step() {
     let mut ui = open("report");
     let before = scene(&ui).clone();
     let (start, from) = (world(&ui), ui.get_by_label(POINT).rect().center());
-    shown(&mut ui);
+    sent_scenes(&mut ui);
     drag(&mut ui, from, vec2(40.0, -30.0), 8);
     ui.drop_at(from + vec2(40.0, -30.0));
     ui.run_steps(2);
 
     let projection = Projection::new(&scene(&ui).camera, &scene(&ui).film).unwrap();
-    let placement = ui.state().canvas.placement.unwrap();
+    let placement = ui.state().canvas.transform.unwrap();
     let there = placement.to_screen(projection.project(world(&ui)).unwrap());
     // The handle is drawn at f32 coordinates of size 1000, and rounded to pixels for assistive technology.
     assert!(there.distance(from + vec2(40.0, -30.0)) < 1.5, "{there:?} is not under the pointer");
     let depth = projection.depth(world(&ui)) - projection.depth(start);
     assert!(depth.abs() < 1e-12, "it left the plane that faces the camera by {depth}");
-    assert!(shown(&mut ui).len() >= 8, "each move of the pointer is rendered");
+    assert!(sent_scenes(&mut ui).len() >= 8, "each move of the pointer is rendered");
 
     ui.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     ui.run_steps(2);
@@ -148,7 +148,7 @@ fn a_click_in_the_picture_selects_what_is_seen() {
     let ball = scene(&ui).objects.iter().position(|object| object.name == "mirror ball").unwrap();
     let center = Handle::Object(ball).position(scene(&ui)).unwrap();
     let projection = Projection::new(&scene(&ui).camera, &scene(&ui).film).unwrap();
-    let at = ui.state().canvas.placement.unwrap().to_screen(projection.project(center).unwrap());
+    let at = ui.state().canvas.transform.unwrap().to_screen(projection.project(center).unwrap());
     ui.hover_at(at);
     ui.run_steps(1);
     ui.drag_at(at);
@@ -161,7 +161,7 @@ fn a_click_in_the_picture_selects_what_is_seen() {
 #[test]
 fn the_wheel_zooms_to_the_pointer_and_f_fits() {
     let mut ui = open("cornell");
-    let before = ui.state().canvas.placement.unwrap();
+    let before = ui.state().canvas.transform.unwrap();
     let cursor = before.picture().center() + vec2(60.0, -35.0);
     let film = before.to_film(cursor);
     ui.hover_at(cursor);
@@ -174,7 +174,7 @@ fn the_wheel_zooms_to_the_pointer_and_f_fits() {
         modifiers: Modifiers::NONE,
     });
     ui.run_steps(20);
-    let after = ui.state().canvas.placement.unwrap();
+    let after = ui.state().canvas.transform.unwrap();
     assert!(after.scale > 1.2 * before.scale, "{} is not larger than {}", after.scale, before.scale);
     // f32 coordinates of size 1000, over some twenty frames of smooth scrolling.
     assert!(after.to_screen(film).distance(cursor) < 0.1, "the pixel under the pointer stays there");
@@ -187,12 +187,12 @@ fn the_wheel_zooms_to_the_pointer_and_f_fits() {
 fn dragging_beside_the_handles_pans() {
     let mut ui = open("cornell");
     let before = scene(&ui).clone();
-    let placement = ui.state().canvas.placement.unwrap();
+    let placement = ui.state().canvas.transform.unwrap();
     let from = placement.picture().left_bottom() + vec2(20.0, -20.0);
     drag(&mut ui, from, vec2(30.0, 40.0), 5);
     ui.drop_at(from + vec2(30.0, 40.0));
     ui.run_steps(2);
-    let moved = ui.state().canvas.placement.unwrap().picture().min - placement.picture().min;
+    let moved = ui.state().canvas.transform.unwrap().picture().min - placement.picture().min;
     assert!((moved - vec2(30.0, 40.0)).length() < 0.1, "the picture follows: {moved:?}");
     assert_eq!(*scene(&ui), before, "the scene does not");
 }
@@ -235,7 +235,7 @@ fn nothing_reacts_under_a_dialog() {
 fn a_drag_leaves_the_panels_as_wide_as_they_are() {
     let mut ui = open("report");
     let from = ui.get_by_label(POINT).rect().center();
-    let width = |ui: &Ui| ui.state().canvas.placement.unwrap().canvas.width();
+    let width = |ui: &Ui| ui.state().canvas.transform.unwrap().canvas.width();
     let fields = |ui: &Ui| ui.query_all_by_role(Role::SpinButton).map(|field| field.rect().width()).fold(0.0, f32::max);
     let before = (width(&ui), fields(&ui));
     for step in 1..=20 {

@@ -109,7 +109,7 @@ fn edits_are_never_thrown_away_unasked() {
 
     for next in [Next::Quit, Next::Example("water"), Next::Open("a.toml".into())] {
         let ctx = ui.ctx.clone();
-        ui.state_mut().apply(&ctx, AppCommand::GoTo(next.clone()));
+        ui.state_mut().apply(&ctx, AppCommand::Leave(next.clone()));
         ui.run_steps(2);
         assert_eq!(ui.state().dialog, Some(Dialog::Unsaved(next)));
         assert!(!ui.state().may_close, "the window stays open");
@@ -129,7 +129,7 @@ fn save_then_goes_on_to_what_was_asked_for() {
     answer_dialogs(&mut ui, Some(path.clone()));
     edit(&mut ui);
     let ctx = ui.ctx.clone();
-    ui.state_mut().apply(&ctx, AppCommand::GoTo(Next::Example("water")));
+    ui.state_mut().apply(&ctx, AppCommand::Leave(Next::Example("water")));
     ui.run_steps(2);
     click(&mut ui, "Save");
     let water = Location::BuiltIn("water".to_owned());
@@ -148,7 +148,7 @@ fn a_cancelled_save_goes_nowhere() {
     edit(&mut ui);
     let edited = scene(&ui).clone();
     let ctx = ui.ctx.clone();
-    ui.state_mut().apply(&ctx, AppCommand::GoTo(Next::Quit));
+    ui.state_mut().apply(&ctx, AppCommand::Leave(Next::Quit));
     ui.run_steps(2);
     click(&mut ui, "Save");
     wait_until(&mut ui, "the end of the dialog", |ui| ui.state().chooser.pending().is_none());
@@ -321,7 +321,7 @@ fn a_dropped_picture_becomes_a_texture_and_a_dropped_scene_is_opened() {
 #[test]
 fn enter_closes_a_message() {
     let mut ui = open("cornell");
-    ui.state_mut().dialog = Some(Dialog::error("A title".into(), "A text".into()));
+    ui.state_mut().dialog = Some(Dialog::Error("A title".into(), "A text".into()));
     ui.run_steps(2);
     ui.key_press(Key::Enter);
     ui.run_steps(2);

@@ -10,7 +10,7 @@ fn commands(ui: &mut Ui) -> Vec<&'static str> {
         Command::Restart => "restart",
         Command::Target(_) => "target",
     };
-    ui.state_mut().outbox.drain(..).map(name).collect()
+    ui.state_mut().rendering.take_commands().into_iter().map(name).collect()
 }
 
 #[test]
@@ -20,7 +20,7 @@ fn space_pauses_and_resumes_and_r_restarts() {
     ui.key_press(Key::Space);
     ui.run_steps(2);
     assert_eq!(commands(&mut ui), ["pause"]);
-    ui.state_mut().receive(None, Status::Rendering);
+    ui.state_mut().rendering.receive(None, Status::Rendering);
     ui.run_steps(2);
     assert!(ui.query_by_label("Pausing after this iteration").is_some(), "the engine finishes what it is at");
     ui.key_press(Key::Space);
@@ -28,7 +28,7 @@ fn space_pauses_and_resumes_and_r_restarts() {
     assert_eq!(commands(&mut ui), ["resume"], "also before the engine has paused");
     ui.key_press(Key::Space);
     ui.run_steps(2);
-    ui.state_mut().receive(None, Status::Paused);
+    ui.state_mut().rendering.receive(None, Status::Paused);
     ui.run_steps(2);
     assert!(ui.query_by_label("Paused").is_some());
     ui.key_press(Key::Space);
@@ -63,7 +63,7 @@ fn f1_shows_every_key() {
     ui.key_press(Key::F1);
     ui.run_steps(3);
     assert_eq!(ui.state().dialog, Some(Dialog::Help));
-    for label in ["Pause or resume", "Undo", "Export picture…", "Esc meanwhile"] {
+    for label in ["Pause or resume", "Undo", "Export picture…", "Esc during a drag"] {
         assert!(ui.query_by_label(label).is_some(), "{label} is not in the help");
     }
     ui.key_press(Key::Escape);
@@ -74,10 +74,10 @@ fn f1_shows_every_key() {
 #[test]
 fn panels_can_be_hidden() {
     let mut ui = open("cornell");
-    let narrow = ui.state().canvas.placement.unwrap().canvas.width();
+    let narrow = ui.state().canvas.transform.unwrap().canvas.width();
     ui.key_press_modifiers(Modifiers::COMMAND, Key::B);
     ui.run_steps(3);
-    assert!(ui.state().canvas.placement.unwrap().canvas.width() > narrow + 300.0, "the picture has the room");
+    assert!(ui.state().canvas.transform.unwrap().canvas.width() > narrow + 300.0, "the picture has the room");
 }
 
 #[test]

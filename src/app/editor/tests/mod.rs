@@ -1,8 +1,16 @@
-//! The editor as a user meets it, without a window, a GPU or an engine.
+//! Tests of the editor through its widgets, without a window, a GPU or an engine.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `canvas` | selecting and dragging handles; zoom and pan |
+//! | `frames` | frames, the texture, progress, failures |
+//! | `files` | opening, saving, exporting, dropped files |
+//! | `keys` | shortcuts, the help |
+//! | `panels` | fields, the outline, adding and deleting |
 
 mod canvas;
-mod display;
 mod files;
+mod frames;
 mod keys;
 mod panels;
 
@@ -22,7 +30,7 @@ use std::time::{Duration, Instant};
 
 type Ui = Harness<'static, Editor>;
 
-/// The editor with a built-in scene, as the window shows it.
+/// The editor of a built-in scene, in a window of 1280 x 900 points.
 fn open(scene: &str) -> Ui {
     let editor = Editor::new(SceneFile::built_in(scene).unwrap());
     let show = |ui: &mut egui::Ui, editor: &mut Editor| {
@@ -40,9 +48,9 @@ fn scene(ui: &Ui) -> &Scene {
     ui.state().document.scene()
 }
 
-/// The scenes that were sent to the engine since.
-fn shown(ui: &mut Ui) -> Vec<Arc<SceneFile>> {
-    let sent = ui.state_mut().outbox.drain(..);
+/// The scenes that were sent to the engine since the last call.
+fn sent_scenes(ui: &mut Ui) -> Vec<Arc<SceneFile>> {
+    let sent = ui.state_mut().rendering.take_commands().into_iter();
     sent.filter_map(|command| if let Command::Show(file) = command { Some(file) } else { None }).collect()
 }
 
@@ -69,7 +77,7 @@ fn choose_from_menu(ui: &mut Ui, path: &[&str]) {
     }
 }
 
-/// Steps until something happens on another thread.
+/// Runs frames until `done`, which waits for another thread.
 fn wait_until(ui: &mut Ui, what: &str, mut done: impl FnMut(&mut Ui) -> bool) {
     let start = Instant::now();
     while !done(ui) {
@@ -79,7 +87,7 @@ fn wait_until(ui: &mut Ui, what: &str, mut done: impl FnMut(&mut Ui) -> bool) {
     }
 }
 
-/// File dialogs that answer at once.
+/// Replaces the file dialogs by ones that return `path` at once.
 fn answer_dialogs(ui: &mut Ui, path: Option<PathBuf>) {
     ui.state_mut().chooser = Chooser::new(Arc::new(move |_: &Request| path.clone()));
 }
@@ -106,6 +114,6 @@ fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
 }
 
 fn receive(ui: &mut Ui, frame: Arc<Frame>) {
-    ui.state_mut().receive(Some(frame), Status::Rendering);
+    ui.state_mut().rendering.receive(Some(frame), Status::Rendering);
     ui.run_steps(2);
 }

@@ -18,14 +18,14 @@ fn a_typed_number_changes_the_scene_and_undo_takes_it_back() {
     let before = scene(&ui).clone();
     let ball = place(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
     select(&mut ui, Item::Object(ball));
-    shown(&mut ui);
+    sent_scenes(&mut ui);
     type_number(&mut ui, "Radius", "0.125");
     assert!(matches!(scene(&ui).objects[ball].shape, Shape::Sphere { radius: 0.125, .. }), "the number counts");
-    assert_eq!(shown(&mut ui).len(), 1, "one scene is rendered for one number");
+    assert_eq!(sent_scenes(&mut ui).len(), 1, "one scene is rendered for one number");
     ui.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     ui.run_steps(2);
     assert_eq!(*scene(&ui), before, "as before");
-    assert_eq!(shown(&mut ui).len(), 1, "and rendered again");
+    assert_eq!(sent_scenes(&mut ui).len(), 1, "and rendered again");
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn every_patch_of_an_object_can_be_reached() {
 #[test]
 fn exposure_restarts_nothing_and_can_be_undone() {
     let mut ui = open("cornell");
-    shown(&mut ui);
+    sent_scenes(&mut ui);
     let before = scene(&ui).film.exposure;
     ui.get_by_role_and_label(Role::SpinButton, "Exposure").click();
     ui.run_steps(2);
@@ -64,8 +64,8 @@ fn exposure_restarts_nothing_and_can_be_undone() {
     ui.key_press(Key::Enter);
     ui.run_steps(2);
     assert_eq!(scene(&ui).film.exposure, 2.0);
-    assert_eq!(ui.state().document.undoable(), Some("picture settings"));
-    assert!(shown(&mut ui).is_empty(), "the radiance is the same");
+    assert_eq!(ui.state().document.undoable(), Some("edit picture settings"));
+    assert!(sent_scenes(&mut ui).is_empty(), "the radiance is the same");
     ui.state_mut().document.undo();
     assert_eq!(scene(&ui).film.exposure, before);
 }
@@ -95,7 +95,7 @@ fn another_type_of_material_is_chosen_from_a_list() {
     ui.get_by_role_and_label(Role::Button, "glass").click();
     ui.run_steps(3);
     assert!(matches!(scene(&ui).materials[0].model, MaterialModel::Glass { .. }), "{:?}", scene(&ui).materials[0]);
-    type_number(&mut ui, "Refraction", "1.33");
+    type_number(&mut ui, "IOR", "1.33");
     assert!(matches!(scene(&ui).materials[0].model, MaterialModel::Glass { ior: 1.33, .. }), "its numbers are there");
 }
 
@@ -104,16 +104,16 @@ fn an_invalid_scene_is_explained_and_not_rendered() {
     let mut ui = open("report");
     let floor = place(&ui, |shape| matches!(shape, Shape::Quad { .. }));
     select(&mut ui, Item::Object(floor));
-    shown(&mut ui);
+    sent_scenes(&mut ui);
     for axis in ["x", "y", "z"] {
         type_number(&mut ui, &format!("Edge u {axis}"), "0");
     }
     assert!(ui.query_by_label_contains("cannot be rendered").is_some(), "the window says so");
     assert!(ui.query_by_label_contains("edge_u").is_some(), "and why");
-    let valid = shown(&mut ui).len();
+    let valid = sent_scenes(&mut ui).len();
     type_number(&mut ui, "Edge u x", "1.5");
     assert!(ui.query_by_label_contains("cannot be rendered").is_none(), "all is well again");
-    assert_eq!(shown(&mut ui).len(), 1, "and rendered, like {valid} scenes on the way");
+    assert_eq!(sent_scenes(&mut ui).len(), 1, "and rendered, like {valid} scenes on the way");
 }
 
 #[test]

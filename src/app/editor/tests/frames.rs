@@ -16,7 +16,7 @@ fn a_frame_becomes_the_texture_and_fills_the_panels() {
 fn the_newest_picture_is_shown_last() {
     let mut ui = open("cornell");
     for size in 1..=20 {
-        ui.state_mut().receive(Some(frame(1, false, size)), Status::Rendering);
+        ui.state_mut().rendering.receive(Some(frame(1, false, size)), Status::Rendering);
         ui.run_steps(1);
     }
     let newest = |ui: &mut Ui| ui.state().display.texture().is_some_and(|texture| texture.size() == [20, 20]);
@@ -24,7 +24,7 @@ fn the_newest_picture_is_shown_last() {
 }
 
 #[test]
-fn the_plan_says_what_is_skipped_and_why() {
+fn the_plan_gives_the_reason_of_a_skipped_component() {
     let mut ui = open("cornell");
     receive(&mut ui, frame(1, false, 16));
     ui.get_by_label("Plan").click();
@@ -35,7 +35,7 @@ fn the_plan_says_what_is_skipped_and_why() {
 #[test]
 fn a_failure_is_a_message_and_the_scene_lives() {
     let mut ui = open("cornell");
-    ui.state_mut().receive(None, Status::Failed("the photon pass stopped".to_owned()));
+    ui.state_mut().rendering.receive(None, Status::Failed("the photon pass stopped".to_owned()));
     ui.run_steps(2);
     assert!(ui.query_by_label_contains("the photon pass stopped").is_some(), "why");
     type_number(&mut ui, "Corner x", "-0.9");
@@ -51,7 +51,7 @@ fn a_first_estimate_is_not_called_unknown() {
     assert!(ui.query_by_label("No error estimate yet").is_none(), "one measurement is an estimate");
 }
 
-/// What the colours of the picture are multiplied by.
+/// The tint of the picture: white, or grey where it is dimmed.
 fn tint(ui: &Ui) -> egui::Color32 {
     let texture = ui.state().display.texture().unwrap().id();
     let of_picture = ui.output().shapes.iter().find_map(|clipped| match &clipped.shape {
@@ -68,20 +68,20 @@ fn a_picture_of_another_scene_is_dimmed() {
     wait_until(&mut ui, "the texture", |ui| ui.state().display.texture().is_some());
     ui.run_steps(2);
     assert_eq!(tint(&ui), egui::Color32::WHITE);
-    let place = ui.state().canvas.placement;
-    ui.state_mut().receive(None, Status::Failed("the photon pass stopped".to_owned()));
+    let transform = ui.state().canvas.transform;
+    ui.state_mut().rendering.receive(None, Status::Failed("the photon pass stopped".to_owned()));
     ui.run_steps(2);
-    assert_ne!(tint(&ui), egui::Color32::WHITE, "it is not the scene's");
-    assert_eq!(ui.state().canvas.placement, place, "the message lies over it and moves nothing");
+    assert_ne!(tint(&ui), egui::Color32::WHITE, "the picture shows another scene");
+    assert_eq!(ui.state().canvas.transform, transform, "the message lies over the picture and moves nothing");
 }
 
 #[test]
 fn the_target_of_the_error_is_set_in_the_panel_and_reached() {
     let mut ui = open("cornell");
-    ui.state_mut().receive(Some(frame(1, false, 8)), Status::Rendering);
+    ui.state_mut().rendering.receive(Some(frame(1, false, 8)), Status::Rendering);
     ui.run_steps(2);
-    ui.state_mut().outbox.clear();
-    let field = |ui: &Ui| ui.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Rest at").rect().center();
+    ui.state_mut().rendering.take_commands();
+    let field = |ui: &Ui| ui.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Target error").rect().center();
     let at = field(&ui);
     ui.drag_at(at);
     ui.run_steps(2);
@@ -89,10 +89,11 @@ fn the_target_of_the_error_is_set_in_the_panel_and_reached() {
     ui.run_steps(2);
     ui.drop_at(at + egui::vec2(40.0, 0.0));
     ui.run_steps(2);
-    let target = ui.state().rendering.target.expect("there is one");
+    let target = ui.state().rendering.target().expect("there is one");
     assert!(target > 0.002, "0.001 in the beginning, dragged to {target}");
-    assert!(matches!(ui.state().outbox.last(), Some(Command::Target(Some(sent))) if *sent == target));
-    ui.state_mut().receive(None, Status::Converged);
+    let commands = ui.state_mut().rendering.take_commands();
+    assert!(matches!(commands.last(), Some(Command::Target(Some(sent))) if *sent == target), "{commands:?}");
+    ui.state_mut().rendering.receive(None, Status::Converged);
     ui.run_steps(2);
     assert!(ui.query_by_label("Converged").is_some());
 }

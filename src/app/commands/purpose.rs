@@ -1,0 +1,62 @@
+//! The purposes of a file, with the formats that each allows.
+
+use std::path::Path;
+
+/// The purpose of a file that the user chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    OpenScene,
+    SaveScene,
+    ExportPicture,
+    ExportSurface,
+    AddSurface,
+    AddTexture,
+}
+
+impl Purpose {
+    /// The title of the dialog that asks for the file.
+    pub(crate) fn title(self) -> &'static str {
+        match self {
+            Self::OpenScene => "Open scene",
+            Self::SaveScene => "Save scene",
+            Self::ExportPicture => "Export picture",
+            Self::ExportSurface => "Export surface",
+            Self::AddSurface => "Add patches",
+            Self::AddTexture => "Add texture",
+        }
+    }
+
+    /// The purpose of a file that was dropped onto the window, by its extension; an unknown extension means a scene.
+    pub(crate) fn of_dropped(path: &Path) -> Self {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        let allows = |purpose: &Self| purpose.extensions().iter().any(|known| extension.as_deref() == Some(known));
+        [Self::AddSurface, Self::AddTexture].into_iter().find(allows).unwrap_or(Self::OpenScene)
+    }
+
+    /// Whether the file is written, not read.
+    pub(crate) fn writes(self) -> bool {
+        matches!(self, Self::SaveScene | Self::ExportPicture | Self::ExportSurface)
+    }
+
+    /// The allowed extensions, in lower case; the first is the default.
+    pub(crate) fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::OpenScene | Self::SaveScene => &["toml"],
+            Self::ExportPicture => &["png", "exr"],
+            Self::ExportSurface => &["obj", "bpt"],
+            Self::AddSurface => &["bpt"],
+            Self::AddTexture => &["png", "jpg", "jpeg"],
+        }
+    }
+
+    /// The allowed formats, for the user.
+    pub(crate) fn formats(self) -> &'static str {
+        match self {
+            Self::OpenScene | Self::SaveScene => ".toml (scene)",
+            Self::ExportPicture => ".png (as displayed) or .exr (linear, 32-bit float)",
+            Self::ExportSurface => ".obj (mesh) or .bpt (control points)",
+            Self::AddSurface => ".bpt (control points of bicubic patches)",
+            Self::AddTexture => ".png or .jpg (image)",
+        }
+    }
+}

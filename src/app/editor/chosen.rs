@@ -1,0 +1,104 @@
+//! Uses a chosen path: open, save, export, add.
+
+use super::state::Editor;
+use crate::app::commands::{Next, Purpose};
+use crate::app::document::{Edit, new_items};
+use crate::app::files::{Outcome, PathField, Request, complete, surface_of};
+use crate::app::shell::Dialog;
+use egui::Context;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+impl Editor {
+    /// Uses the result of a file dialog.
+    pub(crate) fn dialog_ended(&mut self, ctx: &Context, request: Request, outcome: Outcome) {
+        match outcome {
+            Outcome::Chosen(path) => self.path_chosen(ctx, request.purpose, path),
+            Outcome::Cancelled => self.after_save = None,
+            Outcome::Unavailable => self.dialog = Some(Dialog::Path(PathField::instead_of_dialog(request))),
+        }
+    }
+
+    /// Uses a typed path. The path field has confirmed that an existing file will be replaced.
+    pub(crate) fn path_entered(&mut self, ctx: &Context, path: PathBuf) {
+        let Some(Dialog::Path(field)) = self.dialog.take() else { return };
+        match complete(field.purpose, path.clone()) {
+            Ok(complete) if !field.purpose.writes() && !complete.is_file() => {
+                self.ask_again(field.purpose, &path, "This file does not exist.".to_owned());
+            }
+            Ok(complete) => self.use_path(ctx, field.purpose, complete),
+            Err(error) => self.ask_again(field.purpose, &path, error),
+        }
+    }
+
+    /// Uses a path from a file dialog. The dialog has confirmed that an existing file will be replaced, except where the
+    /// extension was missing.
+    fn path_chosen(&mut self, ctx: &Context, purpose: Purpose, path: PathBuf) {
+        match complete(purpose, path.clone()) {
+            Ok(complete) if complete != path && complete.exists() => {
+                self.dialog = Some(Dialog::Path(PathField::correcting(purpose, &complete, None)));
+            }
+            Ok(complete) => self.use_path(ctx, purpose, complete),
+            Err(error) => self.ask_again(purpose, &path, error),
+        }
+    }
+
+    /// Opens, saves, exports or adds the file at `path`.
+    pub(crate) fn use_path(&mut self, ctx: &Context, purpose: Purpose, path: PathBuf) {
+        match purpose {
+            Purpose::OpenScene => self.leave(ctx, Next::Open(path)),
+            Purpose::SaveScene => self.save_to(ctx, path),
+            Purpose::ExportPicture => self.export_picture(path),
+            Purpose::ExportSurface => {
+                if let Some(surface) = surface_of(&self.document) {
+                    self.export.write_surface(ctx, surface, path);
+                }
+            }
+            Purpose::AddSurface => match new_items::surface(self.document.scene(), &path) {
+                Ok(object) => self.document.edit(Edit::AddObject(object)),
+                Err(error) => self.dialog = Some(Dialog::Error("The patches cannot be added".to_owned(), error)),
+            },
+            Purpose::AddTexture => {
+                let texture = new_items::texture(self.document.scene(), &path);
+                self.document.edit(Edit::AddTexture(texture));
+            }
+        }
+    }
+
+    fn export_picture(&mut self, path: PathBuf) {
+        if self.rendering.full_frame().is_none() {
+            self.toasts.info("The picture is still a draft. It will be written after its first iteration.");
+        }
+        self.export.request_picture(path);
+    }
+
+    /// Asks how to export the surface; warns in a scene without a Bezier object.
+    pub(crate) fn ask_for_surface(&mut self) {
+        match surface_of(&self.document) {
+            Some(surface) => self.dialog = Some(Dialog::Surface(surface.name, self.export.steps.get())),
+            None => {
+                self.toasts.warning("The scene has no Bezier object to export");
+            }
+        }
+    }
+
+    /// Asks for a path to export the surface to, with `steps` quads along each side of a patch.
+    pub(crate) fn ask_for_surface_path(&mut self, ctx: &Context, steps: NonZeroUsize) {
+        self.dialog = None;
+        self.export.steps = steps;
+        self.ask_for_path(ctx, Purpose::ExportSurface);
+    }
+
+    /// Continues the exports, and reports the finished ones.
+    pub(crate) fn poll_export(&mut self, ctx: &Context) {
+        let film = self.document.scene().film;
+        for exported in self.export.poll(ctx, self.rendering.full_frame(), film) {
+            match exported.result {
+                Ok(()) => {
+                    self.toasts.success(format!("Exported {}", exported.path.display()));
+                }
+                Err(error) => self.ask_again(exported.purpose, &exported.path, error),
+            }
+        }
+    }
+}

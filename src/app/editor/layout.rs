@@ -1,0 +1,94 @@
+//! Draws the window's content, then carries out the commands that its parts push.
+
+use super::state::Editor;
+use crate::app::canvas::Picture;
+use crate::app::commands::{AppCommand, action};
+use crate::app::panels::{outline_ui, progress_ui, properties_ui};
+use crate::app::shell::{Visibility, dialog_ui, menu_ui, notices_ui, status_bar_ui};
+use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
+
+/// Height of the outline, screen points: it fits every section of a scene with ten objects.
+const OUTLINE_HEIGHT: f32 = 390.0;
+
+impl Editor {
+    /// Takes the results of background threads. Needs no visible window.
+    pub(crate) fn poll(&mut self, ctx: &Context) {
+        if let Some((request, outcome)) = self.chooser.poll() {
+            self.dialog_ended(ctx, request, outcome);
+        }
+        self.poll_export(ctx);
+        if let Some(frame) = self.rendering.frame() {
+            self.display.show(ctx, &frame.image, &self.document.scene().film);
+        }
+        self.display.poll(ctx);
+    }
+
+    /// Draws the window's content, then carries out the user's requests.
+    pub(crate) fn ui(&mut self, ui: &mut Ui) {
+        let mut commands = Vec::new();
+        if self.dialog.is_some() {
+            // Under a dialog nothing reacts and no tooltip opens. The dialog dims the window itself.
+            ui.disable();
+            ui.set_opacity(1.0);
+        } else {
+            commands.extend(action::pressed(ui.ctx()).into_iter().map(AppCommand::Do));
+            commands.extend(dropped_files(ui.ctx()));
+        }
+        self.bars_ui(ui, &mut commands);
+        if self.show_panels {
+            self.panels_ui(ui, &mut commands);
+        }
+        CentralPanel::no_frame().show(ui, |ui| self.canvas_ui(ui, &mut commands));
+        if let Some(dialog) = &mut self.dialog {
+            dialog_ui(ui.ctx(), dialog, &self.document.title(), &mut commands);
+        }
+        self.toasts.show(ui.ctx());
+        for command in commands {
+            self.apply(ui.ctx(), command);
+        }
+        if !ui.input(|input| input.pointer.any_down()) {
+            self.document.end_gesture();
+        }
+        self.rendering.submit(self.document.file());
+    }
+
+    fn bars_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+        let visible = Visibility { handles: self.canvas.show_handles, panels: self.show_panels };
+        Panel::top("menu").show(ui, |ui| menu_ui(ui, &self.document, self.rendering.is_paused(), visible, commands));
+        let film = &self.document.scene().film;
+        Panel::bottom("status").show(ui, |ui| status_bar_ui(ui, film, &self.rendering, &self.canvas));
+    }
+
+    fn panels_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+        Panel::left("progress").default_size(240.0).min_size(200.0).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                progress_ui(ui, &self.document, &self.rendering, commands);
+            });
+        });
+        Panel::right("scene").default_size(372.0).min_size(370.0).show(ui, |ui| {
+            let outline = OUTLINE_HEIGHT.min(0.5 * ui.available_height());
+            Panel::top("outline").resizable(true).default_size(outline).min_size(80.0).show(ui, |ui| {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
+            });
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui.add_space(4.0);
+                properties_ui(ui, &self.document, commands);
+            });
+        });
+    }
+
+    fn canvas_ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+        let canvas = ui.available_rect_before_wrap();
+        let picture = Picture { texture: self.display.texture(), current: self.rendering.is_current() };
+        self.canvas.show(ui, &self.document, picture, commands);
+        // Notices lie over the picture, so the picture stays in place when they come and go.
+        ui.scope_builder(UiBuilder::new().max_rect(canvas), |ui| {
+            notices_ui(ui, self.rendering.status(), self.rendering.problems(), &self.chooser, commands);
+        });
+    }
+}
+
+/// A command for each file that was dropped onto the window in this frame.
+fn dropped_files(ctx: &Context) -> Vec<AppCommand> {
+    ctx.input(|input| input.raw.dropped_files.iter().map(|file| AppCommand::Drop(file.path().to_path_buf())).collect())
+}

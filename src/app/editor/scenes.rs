@@ -1,0 +1,86 @@
+//! Opens, saves and leaves scenes.
+
+use super::state::Editor;
+use crate::app::commands::{Answer, Next, Purpose};
+use crate::app::document::{Document, new_items};
+use crate::app::shell::Dialog;
+use crate::scene::{Location, SceneError, SceneFile};
+use egui::{Context, ViewportCommand};
+use std::path::{Path, PathBuf};
+
+impl Editor {
+    /// Leaves the present scene, or asks first while changes are unsaved.
+    pub(crate) fn leave(&mut self, ctx: &Context, next: Next) {
+        if self.document.is_dirty() {
+            self.dialog = Some(Dialog::Unsaved(next));
+        } else {
+            self.proceed(ctx, next);
+        }
+    }
+
+    /// Follows the user's answer to "Save the changes?".
+    pub(crate) fn answer(&mut self, ctx: &Context, answer: Answer) {
+        let Some(Dialog::Unsaved(next)) = self.dialog.take() else { return };
+        match answer {
+            Answer::Save => {
+                self.after_save = Some(next);
+                self.save(ctx);
+            }
+            Answer::Discard => self.proceed(ctx, next),
+            Answer::Cancel => {}
+        }
+    }
+
+    /// Saves the scene to its file, or asks for a path where it has no file.
+    pub(crate) fn save(&mut self, ctx: &Context) {
+        match self.document.path().map(Path::to_path_buf) {
+            Some(path) => self.save_to(ctx, path),
+            None => self.ask_for_path(ctx, Purpose::SaveScene),
+        }
+    }
+
+    /// Saves the scene to `path`, then leaves it if the user asked to save before leaving.
+    pub(crate) fn save_to(&mut self, ctx: &Context, path: PathBuf) {
+        let mut file = SceneFile::clone(self.document.file());
+        if let Err(error) = file.save(&path) {
+            return self.ask_again(Purpose::SaveScene, &path, error.to_string());
+        }
+        self.toasts.success(format!("Saved {}", path.display()));
+        let rendered = self.rendering.renders(self.document.file());
+        self.document.saved_as(path, file);
+        if rendered {
+            self.rendering.relocate(self.document.file());
+        }
+        if let Some(next) = self.after_save.take() {
+            self.proceed(ctx, next);
+        }
+    }
+
+    /// Leaves the present scene and discards unsaved changes.
+    fn proceed(&mut self, ctx: &Context, next: Next) {
+        match next {
+            Next::New => self.show(SceneFile { scene: new_items::empty_scene(), location: Location::Unsaved }),
+            Next::Open(path) => self.open(SceneFile::open(&path), &path.display().to_string()),
+            Next::Example(name) => self.open(SceneFile::built_in(name), name),
+            Next::Quit => {
+                self.may_close = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+        }
+    }
+
+    /// Shows an opened scene. Where opening failed, keeps the present scene and reports the error.
+    fn open(&mut self, opened: Result<SceneFile, SceneError>, name: &str) {
+        match opened {
+            Ok(file) => self.show(file),
+            Err(error) => self.dialog = Some(Dialog::Error(format!("{name} cannot be opened"), error.to_string())),
+        }
+    }
+
+    /// Replaces the document by another scene, and shows the whole picture.
+    fn show(&mut self, file: SceneFile) {
+        self.document = Document::new(file);
+        self.canvas.fit();
+        self.export.cancel_picture();
+    }
+}

@@ -1,0 +1,61 @@
+//! Proposed paths for file dialogs, and the extensions of chosen paths.
+
+use crate::app::commands::Purpose;
+use crate::app::document::Document;
+use std::path::{Path, PathBuf};
+
+/// A longer text after a dot is part of the file's name, not an extension.
+const LONGEST_EXTENSION: usize = 5;
+
+/// The path to propose: the folder of the scene file, or else the working directory; to write a file, with the scene's
+/// name and the default extension.
+pub(crate) fn proposed(document: &Document, purpose: Purpose) -> PathBuf {
+    let folder = document.path().and_then(Path::parent).map(Path::to_path_buf);
+    let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default();
+    if !purpose.writes() {
+        return folder.join("");
+    }
+    let name = document.title();
+    let stem = Path::new(name.trim_start_matches('*')).file_stem().map(Path::new).unwrap_or(Path::new("scene"));
+    folder.join(stem).with_extension(purpose.extensions()[0])
+}
+
+/// The path, with the default extension appended where a file to write has none.
+///
+/// # Errors
+/// Returns a message for a file to write in an unknown format.
+pub(crate) fn complete(purpose: Purpose, path: PathBuf) -> Result<PathBuf, String> {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    let allowed = |extension: &String| purpose.extensions().contains(&extension.as_str());
+    if !purpose.writes() || extension.as_ref().is_some_and(allowed) {
+        return Ok(path);
+    }
+    let is_extension = |text: &String| {
+        text.len() <= LONGEST_EXTENSION
+            && text.starts_with(|c: char| c.is_ascii_alphabetic())
+            && text.chars().all(|c| c.is_ascii_alphanumeric())
+    };
+    if let Some(other) = extension.filter(is_extension) {
+        return Err(format!("A .{other} file cannot be written."));
+    }
+    // The extension is appended, because the 5 in "view 1.5" is no extension.
+    let mut name = path.into_os_string();
+    name.push(".");
+    name.push(purpose.extensions()[0]);
+    Ok(PathBuf::from(name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_extension_is_appended_and_an_unknown_one_refused() {
+        let path = |purpose, path: &str| complete(purpose, PathBuf::from(path)).map(|path| path.display().to_string());
+        assert_eq!(path(Purpose::ExportPicture, "a/view 1.5"), Ok("a/view 1.5.png".to_owned()));
+        assert_eq!(path(Purpose::ExportPicture, "a/b.EXR"), Ok("a/b.EXR".to_owned()));
+        assert_eq!(path(Purpose::SaveScene, "room"), Ok("room.toml".to_owned()));
+        assert_eq!(path(Purpose::OpenScene, "room"), Ok("room".to_owned()));
+        assert_eq!(path(Purpose::ExportPicture, "x.bmp"), Err("A .bmp file cannot be written.".to_owned()));
+    }
+}
