@@ -3,17 +3,17 @@
 //! | file | holds |
 //! |---|---|
 //! | `state` | [`Editor`]: all that the window shows and remembers |
-//! | `asking` | asks the user for a path, by file dialog or by path field |
+//! | `path_request` | asks the user for a path, by file dialog or by path field |
 //! | `scenes` | opens, saves and leaves scenes |
-//! | `chosen` | uses a chosen path: open, save, export, add |
+//! | `chosen_path` | uses a chosen path: open, save, export, add |
 //! | `apply` | the one place that carries out commands |
 //! | `layout` | draws the content, then carries out the commands that its parts push |
 //! | `tests` | tests of the editor through its widgets, without an engine |
 
 mod apply;
-mod asking;
-mod chosen;
+mod chosen_path;
 mod layout;
+mod path_request;
 mod scenes;
 mod state;
 

@@ -4,7 +4,7 @@ use super::chooser::Request;
 use super::paths::complete;
 use crate::app::commands::{AppCommand, Purpose};
 use crate::app::theme;
-use egui::{Button, Id, Key, TextEdit, Ui};
+use egui::{Button, Id, Key, Response, TextEdit, Ui};
 use std::path::{Path, PathBuf};
 
 /// A path that the user types, for one purpose.
@@ -34,48 +34,68 @@ impl PathField {
 
     /// The field with its buttons. Enter confirms, but replaces an existing file only after a second confirmation.
     pub(crate) fn ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-        let palette = theme::palette(ui.visuals().dark_mode);
         ui.heading(self.purpose.title());
         if !self.note.is_empty() {
             ui.label(self.note);
         }
+        let field = self.text_ui(ui);
+        let confirmed = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        ui.weak(format!("File types: {}", self.purpose.formats()));
+        let replaced = self.replaced_file();
+        self.message_ui(ui, replaced.as_deref());
+        ui.add_space(4.0);
+        ui.horizontal(|ui| self.buttons_ui(ui, confirmed, replaced.is_some(), commands));
+        if ui.memory(|memory| memory.focused().is_none()) {
+            field.request_focus();
+        }
+    }
+
+    fn text_ui(&mut self, ui: &mut Ui) -> Response {
         // A fixed id keeps the keyboard focus when the text above the field changes.
         let field = TextEdit::singleline(&mut self.text).id(Id::unique("typed path")).desired_width(f32::INFINITY);
         let field = ui.add(field).accessible_name("Path");
         if field.changed() {
             self.error = None;
         }
-        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        ui.weak(format!("File types: {}", self.purpose.formats()));
-        let path = PathBuf::from(self.text.trim());
-        let target = complete(self.purpose, path.clone()).unwrap_or_default();
-        let replaces = self.purpose.writes() && target.is_file();
+        field
+    }
+
+    /// The existing file that this path would replace; `None` for a new file, and for a file to read.
+    fn replaced_file(&self) -> Option<PathBuf> {
+        let target = complete(self.purpose, self.path()).ok()?;
+        (self.purpose.writes() && target.is_file()).then_some(target)
+    }
+
+    fn message_ui(&self, ui: &mut Ui, replaced: Option<&Path>) {
+        let palette = theme::palette(ui.visuals().dark_mode);
         if let Some(error) = &self.error {
             ui.colored_label(palette.error, error);
-        } else if replaces {
-            ui.colored_label(palette.warning, format!("{} already exists and will be replaced.", target.display()));
+        } else if let Some(replaced) = replaced {
+            ui.colored_label(palette.warning, format!("{} already exists and will be replaced.", replaced.display()));
         }
-        ui.add_space(4.0);
-        ui.horizontal(|ui| {
-            let verb = match self.purpose {
-                _ if replaces => "Replace",
-                Purpose::ExportPicture | Purpose::ExportSurface => "Export",
-                Purpose::SaveScene => "Save",
-                Purpose::OpenScene | Purpose::AddSurface | Purpose::AddTexture => "Open",
-            };
-            let is_entered = !self.text.trim().is_empty();
-            let button = ui.add_enabled(is_entered, Button::new(verb));
-            if button.clicked() || (entered && is_entered && !replaces) {
-                commands.push(AppCommand::PathEntered(path));
-            } else if entered && is_entered {
-                button.request_focus();
-            }
-            if ui.button("Cancel").clicked() {
-                commands.push(AppCommand::CloseDialog);
-            }
-        });
-        if ui.memory(|memory| memory.focused().is_none()) {
-            field.request_focus();
+    }
+
+    /// The buttons. `confirmed` by Enter acts as the first button, or focuses it where that would replace a file.
+    fn buttons_ui(&self, ui: &mut Ui, confirmed: bool, replaces: bool, commands: &mut Vec<AppCommand>) {
+        let verb = match self.purpose {
+            _ if replaces => "Replace",
+            Purpose::ExportPicture | Purpose::ExportSurface => "Export",
+            Purpose::SaveScene => "Save",
+            Purpose::OpenScene | Purpose::AddSurface | Purpose::AddTexture => "Open",
+        };
+        let is_entered = !self.text.trim().is_empty();
+        let button = ui.add_enabled(is_entered, Button::new(verb));
+        if button.clicked() || (confirmed && is_entered && !replaces) {
+            commands.push(AppCommand::PathEntered(self.path()));
+        } else if confirmed && is_entered {
+            button.request_focus();
         }
+        if ui.button("Cancel").clicked() {
+            commands.push(AppCommand::CloseDialog);
+        }
+    }
+
+    fn path(&self) -> PathBuf {
+        PathBuf::from(self.text.trim())
     }
 }

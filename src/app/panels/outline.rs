@@ -22,10 +22,17 @@ const TEXTURES: Section = Section { title: "Textures", open: false, item: Item::
 
 /// The scene as a list; a click selects an item.
 pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
-    let scene = document.scene();
     ui.spacing_mut().item_spacing.y = SPACING;
     row_ui(ui, document, Item::Camera, "Camera", "", commands);
     row_ui(ui, document, Item::Settings, "Picture and rendering", "", commands);
+    objects_ui(ui, document, commands);
+    lights_ui(ui, document, commands);
+    materials_ui(ui, document, commands);
+    textures_ui(ui, document, commands);
+}
+
+fn objects_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+    let scene = document.scene();
     let objects = scene.objects.iter().map(|object| (object.name.as_str(), kinds::shape_kind(&object.shape)));
     section_ui(ui, &OBJECTS, objects, document, commands, |ui, commands| {
         for (label, shape) in new_items::shapes() {
@@ -37,6 +44,10 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
             commands.push(AppCommand::AddFrom(Purpose::AddSurface));
         }
     });
+}
+
+fn lights_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+    let scene = document.scene();
     let lights = scene.lights.iter().map(|light| (light.name.as_str(), kinds::emitter_kind(&light.emitter)));
     section_ui(ui, &LIGHTS, lights, document, commands, |ui, commands| {
         for (label, emitter) in new_items::emitters() {
@@ -45,6 +56,10 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
             }
         }
     });
+}
+
+fn materials_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+    let scene = document.scene();
     let materials = scene.materials.iter().map(|material| (material.name.as_str(), kinds::model_kind(&material.model)));
     section_ui(ui, &MATERIALS, materials, document, commands, |ui, commands| {
         for (label, model) in new_items::models() {
@@ -53,7 +68,11 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
             }
         }
     });
-    let textures = scene.textures.iter().map(|texture| (texture.name.as_str(), kinds::encoding_kind(texture.encoding)));
+}
+
+fn textures_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+    let textures =
+        document.scene().textures.iter().map(|texture| (texture.name.as_str(), kinds::encoding_kind(texture.encoding)));
     section_ui(ui, &TEXTURES, textures, document, commands, |ui, commands| {
         if ui.button("from a PNG or JPEG file…").clicked() {
             commands.push(AppCommand::AddFrom(Purpose::AddTexture));
@@ -61,6 +80,7 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
     });
 }
 
+/// A section with its entries, and a button "+ Add" that opens the menu `add_ui`.
 fn section_ui<'a>(
     ui: &mut Ui,
     section: &Section,
@@ -83,6 +103,7 @@ fn section_ui<'a>(
     add.accessible_name(format!("Add to {}", section.title));
 }
 
+/// The row of an item: a click selects it, a right click opens its menu.
 fn row_ui(ui: &mut Ui, document: &Document, item: Item, name: &str, kind: &str, commands: &mut Vec<AppCommand>) {
     let selected = document.selection.item == item;
     let button = Button::selectable(selected, name).right_text(egui::RichText::new(kind).small()).truncate();

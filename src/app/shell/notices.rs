@@ -1,7 +1,7 @@
 //! Messages over the picture: failures, problems of the scene, a slow file dialog.
 
 use crate::app::commands::AppCommand;
-use crate::app::files::Chooser;
+use crate::app::files::{Chooser, Request};
 use crate::app::theme;
 use crate::engine::Status;
 use crate::scene::Problem;
@@ -18,36 +18,47 @@ pub(crate) fn notices_ui(
     chooser: &Chooser,
     commands: &mut Vec<AppCommand>,
 ) {
-    let palette = theme::palette(ui.visuals().dark_mode);
     if let Status::Failed(message) = status {
-        notice_ui(ui, palette.error, |ui| {
-            ui.colored_label(palette.error, format!("⚠ Rendering failed: {message}"));
-            ui.label("The scene is unchanged. Edit it, or restart rendering.");
-        });
+        failure_ui(ui, message);
     }
     if !problems.is_empty() {
-        notice_ui(ui, palette.warning, |ui| {
-            ui.colored_label(
-                palette.warning,
-                "⚠ This scene cannot be rendered. The picture shows the last valid scene. Problems:",
-            );
-            ScrollArea::vertical().max_height(MAX_HEIGHT).show(ui, |ui| {
-                for problem in problems {
-                    ui.label(problem.to_string());
-                }
-            });
-        });
+        problems_ui(ui, problems);
     }
     if let Some(request) = chooser.pending().filter(|_| chooser.is_slow(ui.ctx())) {
-        notice_ui(ui, palette.plot, |ui| {
-            ui.horizontal(|ui| {
-                ui.label(format!("Waiting for the file dialog \"{}\"…", request.purpose.title()));
-                if ui.button("Type the path instead").clicked() {
-                    commands.push(AppCommand::TypePath);
-                }
-            });
-        });
+        slow_dialog_ui(ui, request, commands);
     }
+}
+
+fn failure_ui(ui: &mut Ui, message: &str) {
+    let color = theme::palette(ui.visuals().dark_mode).error;
+    notice_ui(ui, color, |ui| {
+        ui.colored_label(color, format!("⚠ Rendering failed: {message}"));
+        ui.label("The scene is unchanged. Edit it, or restart rendering.");
+    });
+}
+
+fn problems_ui(ui: &mut Ui, problems: &[Problem]) {
+    let color = theme::palette(ui.visuals().dark_mode).warning;
+    notice_ui(ui, color, |ui| {
+        ui.colored_label(color, "⚠ This scene cannot be rendered. The picture shows the last valid scene. Problems:");
+        ScrollArea::vertical().max_height(MAX_HEIGHT).show(ui, |ui| {
+            for problem in problems {
+                ui.label(problem.to_string());
+            }
+        });
+    });
+}
+
+fn slow_dialog_ui(ui: &mut Ui, request: &Request, commands: &mut Vec<AppCommand>) {
+    let color = theme::palette(ui.visuals().dark_mode).plot;
+    notice_ui(ui, color, |ui| {
+        ui.horizontal(|ui| {
+            ui.label(format!("Waiting for the file dialog \"{}\"…", request.purpose.title()));
+            if ui.button("Type the path instead").clicked() {
+                commands.push(AppCommand::TypePath);
+            }
+        });
+    });
 }
 
 /// A framed message.

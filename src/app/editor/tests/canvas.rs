@@ -1,7 +1,7 @@
 use super::*;
 use crate::app::canvas::{Projection, View};
 use crate::app::document::{Handle, Item, PointIndex, handles};
-use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, TouchPhase, Vec2, vec2};
+use egui::{Event, MouseWheelSource, MouseWheelUnit, Pos2, TouchPhase, Vec2, vec2};
 use glam::DVec3;
 
 const POINT: &str = "Control point P[1][2]";
@@ -27,7 +27,7 @@ fn drag(ui: &mut Ui, from: Pos2, way: Vec2, steps: u8) {
 }
 
 #[test]
-fn a_dragged_control_point_follows_the_pointer_in_one_step() {
+fn a_dragged_control_point_follows_the_pointer_in_one_undo_step() {
     let mut ui = open("report");
     let before = scene(&ui).clone();
     let (start, from) = (world(&ui), ui.get_by_label(POINT).rect().center());
@@ -37,20 +37,20 @@ fn a_dragged_control_point_follows_the_pointer_in_one_step() {
     ui.run_steps(2);
 
     let projection = Projection::new(&scene(&ui).camera, &scene(&ui).film).unwrap();
-    let placement = ui.state().canvas.transform.unwrap();
-    let there = placement.to_screen(projection.project(world(&ui)).unwrap());
+    let transform = ui.state().canvas.transform.unwrap();
+    let there = transform.to_screen(projection.project(world(&ui)).unwrap());
     // The handle is drawn at f32 coordinates of size 1000, and rounded to pixels for assistive technology.
     assert!(there.distance(from + vec2(40.0, -30.0)) < 1.5, "{there:?} is not under the pointer");
     let depth = projection.depth(world(&ui)) - projection.depth(start);
-    assert!(depth.abs() < 1e-12, "it left the plane that faces the camera by {depth}");
+    assert!(depth.abs() < 1e-12, "the point left the plane that faces the camera by {depth}");
     assert!(sent_scenes(&mut ui).len() >= 8, "each move of the pointer is rendered");
 
     ui.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     ui.run_steps(2);
-    assert_eq!(*scene(&ui), before, "one step back is before the drag");
+    assert_eq!(*scene(&ui), before, "one undo step reverts the drag");
     ui.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     ui.run_steps(2);
-    assert_ne!(*scene(&ui), before, "and forward again");
+    assert_ne!(*scene(&ui), before, "redo repeats the drag");
 }
 
 #[test]
@@ -71,12 +71,12 @@ fn a_drag_that_leaves_the_handle_within_one_frame_still_drags_it() {
     ui.run_steps(2);
     ui.drop_at(from + vec2(60.0, 20.0));
     ui.run_steps(2);
-    assert_eq!(ui.state().canvas.view, view, "the picture stays");
-    assert_ne!(world(&ui), start, "the handle goes");
+    assert_eq!(ui.state().canvas.view, view, "the picture does not move");
+    assert_ne!(world(&ui), start, "the handle moves");
 }
 
 #[test]
-fn escape_takes_a_drag_back() {
+fn escape_reverts_a_drag() {
     let mut ui = open("report");
     let before = scene(&ui).clone();
     let from = ui.get_by_label(POINT).rect().center();
@@ -86,10 +86,10 @@ fn escape_takes_a_drag_back() {
     ui.run_steps(2);
     ui.hover_at(from + vec2(50.0, 50.0));
     ui.run_steps(2);
-    assert_eq!(*scene(&ui), before, "also while the button is still down");
+    assert_eq!(*scene(&ui), before, "the button is still down");
     ui.drop_at(from);
     ui.run_steps(2);
-    assert_eq!(ui.state().document.undoable(), None, "it leaves no step");
+    assert_eq!(ui.state().document.undoable(), None, "no undo step remains");
 }
 
 #[test]
@@ -99,9 +99,9 @@ fn an_axis_key_keeps_the_drag_on_the_axis() {
     ui.key_down(Key::Y);
     drag(&mut ui, from, vec2(10.0, -30.0), 4);
     let moved = world(&ui) - start;
-    assert!(moved.y > 0.0, "up, with the pointer: {moved}");
-    // What rounding leaves beside the axis, in numbers of size 1.
-    assert!(moved.x.abs() + moved.z.abs() < 1e-12, "and nowhere else: {moved}");
+    assert!(moved.y > 0.0, "up, as the pointer: {moved}");
+    // The rounding error of numbers of size 1.
+    assert!(moved.x.abs() + moved.z.abs() < 1e-12, "along the axis only: {moved}");
 }
 
 #[test]
@@ -123,7 +123,7 @@ fn a_click_on_a_handle_selects_and_shift_adds() {
 }
 
 #[test]
-fn shared_points_of_patches_move_together() {
+fn welded_control_points_move_together() {
     let mut ui = open("teapot");
     let mut before = Vec::new();
     let Item::Object(object) = ui.state().document.selection.item else { panic!("the teapot is selected") };
@@ -139,11 +139,11 @@ fn shared_points_of_patches_move_together() {
     ui.drop_at(from + vec2(15.0, -15.0));
     ui.run_steps(2);
     let after = handles::visible(scene(&ui), Item::Object(object));
-    assert_eq!(after.len(), before.len(), "no place came apart");
+    assert_eq!(after.len(), before.len(), "welded points stay together");
 }
 
 #[test]
-fn a_click_in_the_picture_selects_what_is_seen() {
+fn a_click_in_the_picture_selects_the_nearest_object() {
     let mut ui = open("report");
     let ball = scene(&ui).objects.iter().position(|object| object.name == "mirror ball").unwrap();
     let center = Handle::Object(ball).position(scene(&ui)).unwrap();
@@ -177,28 +177,28 @@ fn the_wheel_zooms_to_the_pointer_and_f_fits() {
     let after = ui.state().canvas.transform.unwrap();
     assert!(after.scale > 1.2 * before.scale, "{} is not larger than {}", after.scale, before.scale);
     // f32 coordinates of size 1000, over some twenty frames of smooth scrolling.
-    assert!(after.to_screen(film).distance(cursor) < 0.1, "the pixel under the pointer stays there");
+    assert!(after.to_screen(film).distance(cursor) < 0.1, "the pixel stays under the pointer");
     ui.key_press(Key::F);
     ui.run_steps(2);
     assert_eq!(ui.state().canvas.view, View::Fit);
 }
 
 #[test]
-fn dragging_beside_the_handles_pans() {
+fn dragging_the_picture_pans() {
     let mut ui = open("cornell");
     let before = scene(&ui).clone();
-    let placement = ui.state().canvas.transform.unwrap();
-    let from = placement.picture().left_bottom() + vec2(20.0, -20.0);
+    let transform = ui.state().canvas.transform.unwrap();
+    let from = transform.picture().left_bottom() + vec2(20.0, -20.0);
     drag(&mut ui, from, vec2(30.0, 40.0), 5);
     ui.drop_at(from + vec2(30.0, 40.0));
     ui.run_steps(2);
-    let moved = ui.state().canvas.transform.unwrap().picture().min - placement.picture().min;
+    let moved = ui.state().canvas.transform.unwrap().picture().min - transform.picture().min;
     assert!((moved - vec2(30.0, 40.0)).length() < 0.1, "the picture follows: {moved:?}");
-    assert_eq!(*scene(&ui), before, "the scene does not");
+    assert_eq!(*scene(&ui), before, "the scene does not change");
 }
 
 #[test]
-fn lights_are_dragged_too() {
+fn a_light_is_dragged() {
     let mut ui = open("report");
     let light = Handle::Light(0);
     let start = light.position(scene(&ui)).unwrap();
@@ -207,32 +207,32 @@ fn lights_are_dragged_too() {
     ui.drop_at(from + vec2(-30.0, 0.0));
     ui.run_steps(2);
     assert_ne!(light.position(scene(&ui)).unwrap(), start);
-    assert_eq!(ui.state().document.selection.item, Item::Light(0), "what is dragged is selected");
+    assert_eq!(ui.state().document.selection.item, Item::Light(0), "the dragged light is selected");
 }
 
 #[test]
 fn nothing_reacts_under_a_dialog() {
     let mut ui = open("report");
     let (before, at) = (scene(&ui).clone(), ui.get_by_label(POINT).rect().center());
-    let tips = |ui: &Ui| ui.query_all_by_label(POINT).count();
-    let alone = tips(&ui);
+    let labelled = |ui: &Ui| ui.query_all_by_label(POINT).count();
+    let alone = labelled(&ui);
     ui.hover_at(at);
     for _ in 0..30 {
         ui.step();
     }
-    assert!(tips(&ui) > alone, "the tip is there");
+    assert!(labelled(&ui) > alone, "the tooltip is shown");
     ui.key_press(Key::F1);
     ui.run_steps(3);
-    assert!(ui.state().dialog.is_some(), "F1 opens the keys");
-    assert_eq!(tips(&ui), alone, "the tip is gone");
+    assert!(ui.state().dialog.is_some(), "F1 opens the help");
+    assert_eq!(labelled(&ui), alone, "the tooltip is gone");
     drag(&mut ui, at, vec2(30.0, 20.0), 4);
     ui.drop_at(at + vec2(30.0, 20.0));
     ui.run_steps(2);
-    assert_eq!(*scene(&ui), before, "the handle stays");
+    assert_eq!(*scene(&ui), before, "the handle does not move");
 }
 
 #[test]
-fn a_drag_leaves_the_panels_as_wide_as_they_are() {
+fn a_drag_does_not_resize_the_panels() {
     let mut ui = open("report");
     let from = ui.get_by_label(POINT).rect().center();
     let width = |ui: &Ui| ui.state().canvas.transform.unwrap().canvas.width();

@@ -1,56 +1,31 @@
 use super::*;
 use crate::app::commands::{AppCommand, Next};
-use crate::app::shell::Dialog;
 use crate::scene::{Location, Shape};
-use egui::{Key, Modifiers};
-
-fn folder() -> tempfile::TempDir {
-    tempfile::tempdir().unwrap()
-}
 
 fn edit(ui: &mut Ui) {
     type_number(ui, "Corner x", "-0.9");
-    assert!(ui.state().document.is_dirty(), "there is something to lose");
-}
-
-fn click(ui: &mut Ui, label: &str) {
-    ui.get_by_role_and_label(Role::Button, label).click();
-    ui.run_steps(3);
-}
-
-fn press(ui: &mut Ui, key: Key) {
-    ui.key_press_modifiers(Modifiers::COMMAND, key);
-    ui.run_steps(2);
-}
-
-fn type_path(ui: &mut Ui, path: &std::path::Path) {
-    ui.get_by_role_and_label(Role::TextInput, "Path").focus();
-    ui.run_steps(2);
-    ui.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    ui.run_steps(1);
-    ui.get_by_role_and_label(Role::TextInput, "Path").type_text(&path.display().to_string());
-    ui.run_steps(2);
+    assert!(ui.state().document.is_dirty(), "the scene has unsaved changes");
 }
 
 #[test]
-fn a_scene_is_saved_where_the_dialog_says_and_then_in_place() {
+fn a_scene_is_saved_to_the_chosen_path_and_then_to_its_file() {
     let (mut ui, folder) = (open("cornell"), folder());
     let path = folder.path().join("mine.toml");
     answer_dialogs(&mut ui, Some(path.clone()));
     edit(&mut ui);
     press(&mut ui, Key::S);
     wait_until(&mut ui, "the save", |ui| !ui.state().document.is_dirty());
-    assert_eq!(SceneFile::open(&path).unwrap().scene, *scene(&ui), "what was saved is what is shown");
+    assert_eq!(SceneFile::open(&path).unwrap().scene, *scene(&ui), "the saved scene is the present scene");
 
     answer_dialogs(&mut ui, None);
     type_number(&mut ui, "Corner x", "-0.8");
     press(&mut ui, Key::S);
-    assert!(!ui.state().document.is_dirty(), "no dialog for a scene that has a file");
+    assert!(!ui.state().document.is_dirty(), "a scene with a file is saved without a dialog");
     assert_eq!(SceneFile::open(&path).unwrap().scene, *scene(&ui), "saved again");
 }
 
 #[test]
-fn where_no_dialog_can_open_a_path_is_typed() {
+fn without_file_dialogs_the_path_is_typed() {
     let (mut ui, folder) = (open("cornell"), folder());
     answer_dialogs(&mut ui, None);
     press(&mut ui, Key::S);
@@ -60,11 +35,11 @@ fn where_no_dialog_can_open_a_path_is_typed() {
     type_path(&mut ui, &path);
     click(&mut ui, "Save");
     assert_eq!(ui.state().dialog, None);
-    assert!(SceneFile::open(&path.with_extension("toml")).is_ok(), "saved, with the extension that was left out");
+    assert!(SceneFile::open(&path.with_extension("toml")).is_ok(), "saved with the default extension");
 }
 
 #[test]
-fn a_file_is_replaced_only_on_purpose() {
+fn a_file_is_replaced_only_after_a_confirmation() {
     let (mut ui, folder) = (open("cornell"), folder());
     let path = folder.path().join("there.toml");
     std::fs::write(&path, "old").unwrap();
@@ -81,7 +56,7 @@ fn a_file_is_replaced_only_on_purpose() {
 }
 
 #[test]
-fn a_file_that_cannot_be_opened_is_explained_and_the_scene_stays() {
+fn a_broken_file_is_reported_and_the_scene_stays() {
     let (mut ui, folder) = (open("cornell"), folder());
     let path = folder.path().join("broken.toml");
     std::fs::write(&path, "version = 1\n[camera]\nfov_y = \"wide\"\n").unwrap();
@@ -98,14 +73,14 @@ fn a_file_that_cannot_be_opened_is_explained_and_the_scene_stays() {
 }
 
 #[test]
-fn edits_are_never_thrown_away_unasked() {
+fn unsaved_changes_are_never_discarded_unasked() {
     let mut ui = open("cornell");
     edit(&mut ui);
     let edited = scene(&ui).clone();
     choose_from_menu(&mut ui, &["File", "New scene Ctrl+N"]);
-    assert!(ui.query_by_label("Save the changes?").is_some(), "it asks");
+    assert!(ui.query_by_label("Save the changes?").is_some(), "the dialog asks");
     click(&mut ui, "Cancel");
-    assert_eq!(*scene(&ui), edited, "and stays");
+    assert_eq!(*scene(&ui), edited, "cancelling keeps the scene");
 
     for next in [Next::Quit, Next::Example("water"), Next::Open("a.toml".into())] {
         let ctx = ui.ctx.clone();
@@ -119,11 +94,11 @@ fn edits_are_never_thrown_away_unasked() {
 
     press(&mut ui, Key::N);
     click(&mut ui, "Don't save");
-    assert_eq!(ui.state().document.file().location, Location::Unsaved, "now it is the new scene");
+    assert_eq!(ui.state().document.file().location, Location::Unsaved, "the new scene is open");
 }
 
 #[test]
-fn save_then_goes_on_to_what_was_asked_for() {
+fn saving_before_leaving_opens_the_next_scene() {
     let (mut ui, folder) = (open("cornell"), folder());
     let path = folder.path().join("kept.toml");
     answer_dialogs(&mut ui, Some(path.clone()));
@@ -134,13 +109,13 @@ fn save_then_goes_on_to_what_was_asked_for() {
     click(&mut ui, "Save");
     let water = Location::BuiltIn("water".to_owned());
     wait_until(&mut ui, "the example", |ui| ui.state().document.file().location == water);
-    assert!(SceneFile::open(&path).is_ok(), "and the edits are kept");
+    assert!(SceneFile::open(&path).is_ok(), "the edits are saved");
 }
 
 #[test]
-fn a_cancelled_save_goes_nowhere() {
+fn a_cancelled_save_keeps_the_scene_open() {
     let mut ui = open("cornell");
-    // A person needs a moment to cancel; what returns sooner was never shown.
+    // A user needs a moment to cancel; a dialog that returns sooner was never shown.
     ui.state_mut().chooser = Chooser::new(Arc::new(|_: &Request| {
         std::thread::sleep(Duration::from_millis(600));
         None
@@ -157,7 +132,7 @@ fn a_cancelled_save_goes_nowhere() {
 }
 
 #[test]
-fn a_dialog_that_hangs_can_be_given_up() {
+fn a_hanging_dialog_can_be_dismissed() {
     let mut ui = open("cornell");
     ui.state_mut().chooser = Chooser::new(Arc::new(|_: &Request| {
         std::thread::sleep(Duration::from_secs(4));
@@ -178,45 +153,7 @@ fn an_example_opens_from_the_menu() {
 }
 
 #[test]
-fn the_picture_is_exported_once_it_is_no_draft() {
-    let (mut ui, folder) = (open("cornell"), folder());
-    let path = folder.path().join("picture.png");
-    answer_dialogs(&mut ui, Some(path.clone()));
-    receive(&mut ui, frame(1, true, 8));
-    press(&mut ui, Key::E);
-    wait_until(&mut ui, "the end of the dialog", |ui| ui.state().chooser.pending().is_none());
-    ui.run_steps(4);
-    assert!(!path.exists(), "a draft is not written");
-    receive(&mut ui, frame(1, false, 16));
-    wait_until(&mut ui, "the picture", |_| path.exists());
-    let image = image::open(&path).unwrap();
-    assert_eq!((image.width(), image.height()), (16, 16));
-}
-
-#[test]
-fn a_picture_that_cannot_be_written_is_a_message() {
-    let (mut ui, folder) = (open("cornell"), folder());
-    answer_dialogs(&mut ui, Some(folder.path().join("no such folder/picture.exr")));
-    receive(&mut ui, frame(1, false, 16));
-    press(&mut ui, Key::E);
-    wait_until(&mut ui, "the path field", |ui| matches!(ui.state().dialog, Some(Dialog::Path(..))));
-    ui.run_steps(2);
-    assert!(ui.query_by_label_contains("no such folder/picture.exr: cannot be written").is_some(), "why");
-    ui.key_press(Key::Escape);
-    ui.run_steps(3);
-    assert_eq!(ui.state().dialog, None, "Esc gives it up");
-}
-
-/// Asks for a path to be typed.
-fn path_field(ui: &mut Ui, key: Key) {
-    answer_dialogs(ui, None);
-    press(ui, key);
-    wait_until(ui, "the path field", |ui| matches!(ui.state().dialog, Some(Dialog::Path(..))));
-    ui.run_steps(2);
-}
-
-#[test]
-fn a_typed_path_that_does_not_serve_can_be_corrected() {
+fn a_typed_path_that_fails_can_be_corrected() {
     let (mut ui, folder) = (open("cornell"), folder());
     path_field(&mut ui, Key::S);
     let wrong = folder.path().join("no such folder/mine.toml");
@@ -225,8 +162,8 @@ fn a_typed_path_that_does_not_serve_can_be_corrected() {
     ui.run_steps(3);
     assert!(ui.query_by_label_contains("cannot be written").is_some(), "why");
     let text = ui.get_by_role_and_label(Role::TextInput, "Path").value();
-    assert_eq!(text, Some(wrong.display().to_string()), "what was typed is still there");
-    assert!(ui.get_by_role_and_label(Role::TextInput, "Path").is_focused(), "and can be typed at once");
+    assert_eq!(text, Some(wrong.display().to_string()), "the typed path is kept");
+    assert!(ui.get_by_role_and_label(Role::TextInput, "Path").is_focused(), "the path field has the keyboard");
     let right = folder.path().join("mine.toml");
     type_path(&mut ui, &right);
     ui.key_press(Key::Enter);
@@ -236,48 +173,13 @@ fn a_typed_path_that_does_not_serve_can_be_corrected() {
 }
 
 #[test]
-fn a_format_that_cannot_be_written_is_refused() {
-    let (mut ui, folder) = (open("cornell"), folder());
-    receive(&mut ui, frame(1, false, 16));
-    path_field(&mut ui, Key::E);
-    type_path(&mut ui, &folder.path().join("x.bmp"));
-    ui.key_press(Key::Enter);
-    ui.run_steps(3);
-    assert!(ui.query_by_label_contains("A .bmp file cannot be written").is_some(), "it says so");
-    assert!(ui.query_by_label_contains(".png").is_some(), "and what can be");
-    assert!(ui.get_by_role_and_label(Role::TextInput, "Path").is_focused(), "and stays open to be corrected");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written under another name");
-}
-
-#[test]
-fn the_selected_surface_is_exported_with_the_chosen_steps() {
-    let (mut ui, folder) = (open("report"), folder());
-    let path = folder.path().join("sheet.obj");
-    answer_dialogs(&mut ui, Some(path.clone()));
-    choose_from_menu(&mut ui, &["File", "Export surface… Ctrl+Shift+E"]);
-    type_number(&mut ui, "Quads along each side of a patch", "3");
-    wait_until(&mut ui, "the mesh", |_| path.exists());
-    let text = std::fs::read_to_string(&path).unwrap();
-    assert!(text.starts_with("o sheet\n"), "{}", &text[..20]);
-    assert_eq!(text.lines().filter(|line| line.starts_with("f ")).count(), 9, "3 x 3 quads");
-}
-
-#[test]
-fn a_scene_without_patches_has_no_surface_to_export() {
-    let mut ui = open("cornell");
-    ui.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::E);
-    ui.run_steps(3);
-    assert_eq!(ui.state().dialog, None);
-}
-
-#[test]
-fn a_saved_example_has_its_files_beside_it() {
+fn a_saved_example_is_saved_with_its_files() {
     let (mut ui, folder) = (open("teapot"), folder());
     let path = folder.path().join("mine.toml");
     answer_dialogs(&mut ui, Some(path.clone()));
     press(&mut ui, Key::S);
     wait_until(&mut ui, "the save", |_| path.exists());
-    assert_eq!(SceneFile::open(&path).unwrap().scene, *scene(&ui), "it opens again");
+    assert_eq!(SceneFile::open(&path).unwrap().scene, *scene(&ui), "the saved scene opens");
 }
 
 fn drop_file(ui: &mut Ui, path: std::path::PathBuf) {
@@ -287,7 +189,7 @@ fn drop_file(ui: &mut Ui, path: std::path::PathBuf) {
 }
 
 #[test]
-fn dropped_control_points_become_an_object_that_is_saved_with_its_file() {
+fn a_dropped_bpt_file_becomes_an_object_that_names_the_file() {
     let (mut ui, folder) = (open("cornell"), folder());
     let (bpt, path) = (folder.path().join("pot.bpt"), folder.path().join("mine.toml"));
     std::fs::copy("scenes/teapot.bpt", &bpt).unwrap();
@@ -298,13 +200,13 @@ fn dropped_control_points_become_an_object_that_is_saved_with_its_file() {
     answer_dialogs(&mut ui, Some(path.clone()));
     press(&mut ui, Key::S);
     wait_until(&mut ui, "the save", |_| path.exists());
-    assert!(std::fs::read_to_string(&path).unwrap().contains("file = \"pot.bpt\""), "the file is named, not copied");
+    assert!(std::fs::read_to_string(&path).unwrap().contains("file = \"pot.bpt\""), "the scene names the .bpt file");
 
     std::fs::write(folder.path().join("bad.bpt"), "1\n3 2\n").unwrap();
     let before = scene(&ui).clone();
     drop_file(&mut ui, folder.path().join("bad.bpt"));
     let said = matches!(&ui.state().dialog, Some(Dialog::Error(_, text)) if text.contains("line 2"));
-    assert!(said, "it says where the fault is");
+    assert!(said, "the message names the line");
     assert_eq!(*scene(&ui), before);
 }
 

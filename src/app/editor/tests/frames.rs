@@ -3,7 +3,7 @@ use super::*;
 #[test]
 fn a_frame_becomes_the_texture_and_fills_the_panels() {
     let mut ui = open("cornell");
-    assert!(ui.state().display.texture().is_none(), "nothing to show yet");
+    assert!(ui.state().display.texture().is_none(), "no frame has arrived");
     receive(&mut ui, frame(1, false, 16));
     wait_until(&mut ui, "the texture", |ui| ui.state().display.texture().is_some());
     assert_eq!(ui.state().display.texture().unwrap().size(), [16, 16]);
@@ -33,17 +33,17 @@ fn the_plan_gives_the_reason_of_a_skipped_component() {
 }
 
 #[test]
-fn a_failure_is_a_message_and_the_scene_lives() {
+fn a_failure_is_reported_and_the_scene_stays() {
     let mut ui = open("cornell");
     ui.state_mut().rendering.receive(None, Status::Failed("the photon pass stopped".to_owned()));
     ui.run_steps(2);
-    assert!(ui.query_by_label_contains("the photon pass stopped").is_some(), "why");
+    assert!(ui.query_by_label_contains("the photon pass stopped").is_some(), "the reason");
     type_number(&mut ui, "Corner x", "-0.9");
-    assert!(ui.state().document.is_dirty(), "it can be edited");
+    assert!(ui.state().document.is_dirty(), "the scene can be edited");
 }
 
 #[test]
-fn a_first_estimate_is_not_called_unknown() {
+fn the_first_estimate_is_shown() {
     let mut ui = open("cornell");
     receive(&mut ui, frame(1, true, 8));
     assert!(ui.query_by_label("No error estimate yet").is_some(), "a draft has none");
@@ -76,7 +76,7 @@ fn a_picture_of_another_scene_is_dimmed() {
 }
 
 #[test]
-fn the_target_of_the_error_is_set_in_the_panel_and_reached() {
+fn the_target_error_is_set_in_the_panel() {
     let mut ui = open("cornell");
     ui.state_mut().rendering.receive(Some(frame(1, false, 8)), Status::Rendering);
     ui.run_steps(2);
@@ -89,7 +89,7 @@ fn the_target_of_the_error_is_set_in_the_panel_and_reached() {
     ui.run_steps(2);
     ui.drop_at(at + egui::vec2(40.0, 0.0));
     ui.run_steps(2);
-    let target = ui.state().rendering.target().expect("there is one");
+    let target = ui.state().rendering.target().expect("a target error is set");
     assert!(target > 0.002, "0.001 in the beginning, dragged to {target}");
     let commands = ui.state_mut().rendering.take_commands();
     assert!(matches!(commands.last(), Some(Command::Target(Some(sent))) if *sent == target), "{commands:?}");

@@ -1,6 +1,4 @@
 use super::*;
-use crate::app::shell::Dialog;
-use egui::{Key, Modifiers};
 
 fn commands(ui: &mut Ui) -> Vec<&'static str> {
     let name = |command| match command {
@@ -22,10 +20,10 @@ fn space_pauses_and_resumes_and_r_restarts() {
     assert_eq!(commands(&mut ui), ["pause"]);
     ui.state_mut().rendering.receive(None, Status::Rendering);
     ui.run_steps(2);
-    assert!(ui.query_by_label("Pausing after this iteration").is_some(), "the engine finishes what it is at");
+    assert!(ui.query_by_label("Pausing after this iteration").is_some(), "the engine finishes its iteration");
     ui.key_press(Key::Space);
     ui.run_steps(2);
-    assert_eq!(commands(&mut ui), ["resume"], "also before the engine has paused");
+    assert_eq!(commands(&mut ui), ["resume"], "resuming works before the engine has paused");
     ui.key_press(Key::Space);
     ui.run_steps(2);
     ui.state_mut().rendering.receive(None, Status::Paused);
@@ -40,7 +38,7 @@ fn space_pauses_and_resumes_and_r_restarts() {
 }
 
 #[test]
-fn a_text_field_keeps_its_keys() {
+fn a_focused_text_field_blocks_shortcuts() {
     let mut ui = open("cornell");
     type_number(&mut ui, "Corner x", "-0.5");
     let edited = scene(&ui).clone();
@@ -58,7 +56,7 @@ fn a_text_field_keeps_its_keys() {
 }
 
 #[test]
-fn f1_shows_every_key() {
+fn f1_lists_the_keys() {
     let mut ui = open("cornell");
     ui.key_press(Key::F1);
     ui.run_steps(3);
@@ -77,15 +75,18 @@ fn panels_can_be_hidden() {
     let narrow = ui.state().canvas.transform.unwrap().canvas.width();
     ui.key_press_modifiers(Modifiers::COMMAND, Key::B);
     ui.run_steps(3);
-    assert!(ui.state().canvas.transform.unwrap().canvas.width() > narrow + 300.0, "the picture has the room");
+    assert!(
+        ui.state().canvas.transform.unwrap().canvas.width() > narrow + 300.0,
+        "the canvas takes the space of the panels"
+    );
 }
 
 #[test]
-fn the_keys_fit_into_a_small_window() {
+fn the_help_fits_in_a_small_window() {
     let mut ui = open("cornell");
     ui.set_size(egui::vec2(640.0, 400.0));
     ui.key_press(Key::F1);
     ui.run_steps(4);
     let close = ui.get_by_role_and_label(Role::Button, "Close").rect();
-    assert!(close.max.y < 400.0, "the button is in sight: {close}");
+    assert!(close.max.y < 400.0, "the button is visible: {close}");
 }

@@ -4,11 +4,13 @@
 //! |---|---|
 //! | `canvas` | selecting and dragging handles; zoom and pan |
 //! | `frames` | frames, the texture, progress, failures |
-//! | `files` | opening, saving, exporting, dropped files |
+//! | `files` | opening, saving, leaving scenes; dropped files |
+//! | `exports` | exporting pictures and surfaces |
 //! | `keys` | shortcuts, the help |
 //! | `panels` | fields, the outline, adding and deleting |
 
 mod canvas;
+mod exports;
 mod files;
 mod frames;
 mod keys;
@@ -16,12 +18,14 @@ mod panels;
 
 use crate::app::editor::Editor;
 use crate::app::files::{Chooser, Request};
+use crate::app::shell::Dialog;
 use crate::app::theme;
 use crate::engine::{Command, Counters, Frame, PassSeconds, PlanNote, PlanSummary, Stats, Status};
 use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::scene::{Scene, SceneFile};
 use egui::accesskit::Role;
+use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, Node};
 use std::path::PathBuf;
@@ -39,7 +43,7 @@ fn open(scene: &str) -> Ui {
     };
     let builder = Harness::builder().with_size([1280.0, 900.0]).with_context_setup(theme::install);
     let mut ui = builder.build_ui_state(show, editor);
-    // Panels find their sizes in the first frames.
+    // Panels settle their sizes within four frames.
     ui.run_steps(4);
     ui
 }
@@ -58,10 +62,10 @@ fn sent_scenes(ui: &mut Ui) -> Vec<Arc<SceneFile>> {
 fn type_number(ui: &mut Ui, field: &str, text: &str) {
     ui.get_by_role_and_label(Role::SpinButton, field).click();
     ui.run_steps(2);
-    ui.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::A);
     ui.run_steps(1);
     focused(ui).type_text(text);
-    ui.key_press(egui::Key::Enter);
+    ui.key_press(Key::Enter);
     ui.run_steps(2);
 }
 
@@ -81,7 +85,7 @@ fn choose_from_menu(ui: &mut Ui, path: &[&str]) {
 fn wait_until(ui: &mut Ui, what: &str, mut done: impl FnMut(&mut Ui) -> bool) {
     let start = Instant::now();
     while !done(ui) {
-        assert!(start.elapsed() < Duration::from_secs(20), "{what} did not happen");
+        assert!(start.elapsed() < Duration::from_secs(20), "timed out waiting for {what}");
         std::thread::sleep(Duration::from_millis(2));
         ui.run_steps(1);
     }
@@ -115,5 +119,40 @@ fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
 
 fn receive(ui: &mut Ui, frame: Arc<Frame>) {
     ui.state_mut().rendering.receive(Some(frame), Status::Rendering);
+    ui.run_steps(2);
+}
+
+/// A temporary folder.
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// Clicks a button.
+fn click(ui: &mut Ui, label: &str) {
+    ui.get_by_role_and_label(Role::Button, label).click();
+    ui.run_steps(3);
+}
+
+/// Presses a key with Ctrl.
+fn press(ui: &mut Ui, key: Key) {
+    ui.key_press_modifiers(Modifiers::COMMAND, key);
+    ui.run_steps(2);
+}
+
+/// Types a path into the path field.
+fn type_path(ui: &mut Ui, path: &std::path::Path) {
+    ui.get_by_role_and_label(Role::TextInput, "Path").focus();
+    ui.run_steps(2);
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    ui.run_steps(1);
+    ui.get_by_role_and_label(Role::TextInput, "Path").type_text(&path.display().to_string());
+    ui.run_steps(2);
+}
+
+/// Presses a key with Ctrl, and waits for the path field.
+fn path_field(ui: &mut Ui, key: Key) {
+    answer_dialogs(ui, None);
+    press(ui, key);
+    wait_until(ui, "the path field", |ui| matches!(ui.state().dialog, Some(Dialog::Path(..))));
     ui.run_steps(2);
 }

@@ -1,37 +1,36 @@
 use super::*;
 use crate::app::document::{Item, Selection};
 use crate::scene::{Color, Emitter, MaterialModel, Shape, built_in_scenes};
-use egui::{Key, Modifiers};
 
 fn select(ui: &mut Ui, item: Item) {
     ui.state_mut().document.selection = Selection::of(item);
     ui.run_steps(2);
 }
 
-fn place(ui: &Ui, kind: impl Fn(&Shape) -> bool) -> usize {
+fn first_object(ui: &Ui, kind: impl Fn(&Shape) -> bool) -> usize {
     scene(ui).objects.iter().position(|object| kind(&object.shape)).unwrap()
 }
 
 #[test]
-fn a_typed_number_changes_the_scene_and_undo_takes_it_back() {
+fn a_typed_number_changes_the_scene_and_undo_reverts_it() {
     let mut ui = open("report");
     let before = scene(&ui).clone();
-    let ball = place(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
     select(&mut ui, Item::Object(ball));
     sent_scenes(&mut ui);
     type_number(&mut ui, "Radius", "0.125");
-    assert!(matches!(scene(&ui).objects[ball].shape, Shape::Sphere { radius: 0.125, .. }), "the number counts");
+    assert!(matches!(scene(&ui).objects[ball].shape, Shape::Sphere { radius: 0.125, .. }), "the scene has the number");
     assert_eq!(sent_scenes(&mut ui).len(), 1, "one scene is rendered for one number");
     ui.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     ui.run_steps(2);
-    assert_eq!(*scene(&ui), before, "as before");
-    assert_eq!(sent_scenes(&mut ui).len(), 1, "and rendered again");
+    assert_eq!(*scene(&ui), before, "the scene before the edit");
+    assert_eq!(sent_scenes(&mut ui).len(), 1, "undo is rendered");
 }
 
 #[test]
-fn control_points_are_numbers() {
+fn a_control_point_is_edited_as_numbers() {
     let mut ui = open("report");
-    let sheet = place(&ui, |shape| matches!(shape, Shape::Bezier(_)));
+    let sheet = first_object(&ui, |shape| matches!(shape, Shape::Bezier(_)));
     select(&mut ui, Item::Object(sheet));
     type_number(&mut ui, "P[1][2] y", "-0.25");
     let Shape::Bezier(bezier) = &scene(&ui).objects[sheet].shape else { panic!("a Bezier object") };
@@ -42,7 +41,7 @@ fn control_points_are_numbers() {
 #[test]
 fn every_patch_of_an_object_can_be_reached() {
     let mut ui = open("teapot");
-    let teapot = place(&ui, |shape| matches!(shape, Shape::Bezier(_)));
+    let teapot = first_object(&ui, |shape| matches!(shape, Shape::Bezier(_)));
     select(&mut ui, Item::Object(teapot));
     type_number(&mut ui, "Patch", "31");
     assert_eq!(ui.state().document.selection.patch, 31);
@@ -87,7 +86,7 @@ fn a_light_keeps_its_hue_when_its_strength_changes() {
 }
 
 #[test]
-fn another_type_of_material_is_chosen_from_a_list() {
+fn the_kind_of_a_material_is_chosen_from_a_list() {
     let mut ui = open("cornell");
     select(&mut ui, Item::Material(0));
     ui.get_by_role_and_label(Role::ComboBox, "Type").click();
@@ -96,28 +95,31 @@ fn another_type_of_material_is_chosen_from_a_list() {
     ui.run_steps(3);
     assert!(matches!(scene(&ui).materials[0].model, MaterialModel::Glass { .. }), "{:?}", scene(&ui).materials[0]);
     type_number(&mut ui, "IOR", "1.33");
-    assert!(matches!(scene(&ui).materials[0].model, MaterialModel::Glass { ior: 1.33, .. }), "its numbers are there");
+    assert!(
+        matches!(scene(&ui).materials[0].model, MaterialModel::Glass { ior: 1.33, .. }),
+        "the fields of glass edit the material"
+    );
 }
 
 #[test]
-fn an_invalid_scene_is_explained_and_not_rendered() {
+fn an_invalid_scene_is_reported_and_not_rendered() {
     let mut ui = open("report");
-    let floor = place(&ui, |shape| matches!(shape, Shape::Quad { .. }));
+    let floor = first_object(&ui, |shape| matches!(shape, Shape::Quad { .. }));
     select(&mut ui, Item::Object(floor));
     sent_scenes(&mut ui);
     for axis in ["x", "y", "z"] {
         type_number(&mut ui, &format!("Edge u {axis}"), "0");
     }
-    assert!(ui.query_by_label_contains("cannot be rendered").is_some(), "the window says so");
-    assert!(ui.query_by_label_contains("edge_u").is_some(), "and why");
+    assert!(ui.query_by_label_contains("cannot be rendered").is_some(), "the notice");
+    assert!(ui.query_by_label_contains("edge_u").is_some(), "the problem");
     let valid = sent_scenes(&mut ui).len();
     type_number(&mut ui, "Edge u x", "1.5");
-    assert!(ui.query_by_label_contains("cannot be rendered").is_none(), "all is well again");
-    assert_eq!(sent_scenes(&mut ui).len(), 1, "and rendered, like {valid} scenes on the way");
+    assert!(ui.query_by_label_contains("cannot be rendered").is_none(), "the notice is gone");
+    assert_eq!(sent_scenes(&mut ui).len(), 1, "the valid scene is rendered, after {valid} valid scenes before");
 }
 
 #[test]
-fn a_name_counts_when_it_is_complete() {
+fn a_name_takes_effect_on_enter() {
     let mut ui = open("cornell");
     select(&mut ui, Item::Material(0));
     let before = scene(&ui).materials[0].name.clone();
@@ -149,7 +151,7 @@ fn objects_are_added_copied_and_deleted() {
 }
 
 #[test]
-fn a_material_in_use_stays() {
+fn a_material_in_use_cannot_be_deleted() {
     let mut ui = open("cornell");
     select(&mut ui, Item::Material(0));
     let before = scene(&ui).clone();
@@ -170,7 +172,7 @@ fn every_item_of_every_scene_has_its_panel_with_named_fields() {
         for item in settings.chain(objects).chain(lights).chain(materials) {
             select(&mut ui, item);
             ui.check_accessibility();
-            assert_eq!(ui.state().document.scene(), &scene, "looking at {item:?} of {} changes nothing", example.name);
+            assert_eq!(ui.state().document.scene(), &scene, "showing {item:?} of {} changes nothing", example.name);
         }
     }
 }
@@ -188,33 +190,33 @@ fn a_texture_can_replace_a_colour() {
 }
 
 #[test]
-fn a_number_that_is_shown_short_keeps_all_its_digits() {
+fn a_rounded_number_keeps_all_its_digits() {
     let mut ui = open("report");
-    let ball = place(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
     select(&mut ui, Item::Object(ball));
     type_number(&mut ui, "Radius", "0.123456789012");
     let field = |ui: &Ui| ui.get_by_role_and_label(Role::SpinButton, "Radius").value();
-    assert_eq!(field(&ui).as_deref(), Some("0.1235"), "short");
+    assert_eq!(field(&ui).as_deref(), Some("0.1235"), "rounded");
     ui.get_by_role_and_label(Role::SpinButton, "Radius").click();
     ui.run_steps(2);
     ui.key_press(Key::Enter);
     ui.run_steps(2);
     let Shape::Sphere { radius, .. } = scene(&ui).objects[ball].shape else { panic!("a sphere") };
-    assert_eq!(radius, 0.123_456_789_012, "looking at it changes nothing");
+    assert_eq!(radius, 0.123_456_789_012, "Enter without typing keeps all digits");
 }
 
 #[test]
-fn all_parts_of_a_scene_are_in_sight() {
+fn all_sections_of_the_outline_are_visible() {
     let ui = open("report");
     for part in ["Objects (8)", "Lights (1)", "Materials (8)", "Textures (6)"] {
         let header = ui.get_by_label(part).rect();
         let properties = ui.get_by_label_contains("Object: bezier").rect();
-        assert!(header.max.y < properties.min.y, "{part} is below the fold: {header} {properties}");
+        assert!(header.max.y < properties.min.y, "{part} is not visible: {header} {properties}");
     }
 }
 
 #[test]
-fn a_texture_has_a_panel_and_stays_while_it_is_used() {
+fn a_texture_in_use_cannot_be_deleted() {
     let mut ui = open("report");
     ui.get_by_label("Textures (6)").click();
     ui.run_steps(20);
@@ -223,5 +225,5 @@ fn a_texture_has_a_panel_and_stays_while_it_is_used() {
     let before = scene(&ui).clone();
     ui.key_press(Key::Delete);
     ui.run_steps(2);
-    assert_eq!(*scene(&ui), before, "a material still needs it");
+    assert_eq!(*scene(&ui), before, "a material uses the texture");
 }
