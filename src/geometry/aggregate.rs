@@ -1,12 +1,9 @@
 use super::bezier::{Patch, PatchHit};
 use super::packets::Packets;
 use super::{Bvh, Plane, Quad, Sphere};
-#[cfg(target_arch = "x86_64")]
-use crate::math::lanes::Avx2;
-use crate::math::lanes::{LANES, set_bits};
+use crate::math::lanes::{LANES, Lanes, set_bits, simd_dispatch, with_lanes};
 use crate::math::{Aabb, Ray};
 use glam::{DVec2, DVec3};
-use multiversion::multiversion;
 use std::sync::Arc;
 
 /// One surface that a ray can meet.
@@ -209,20 +206,12 @@ impl Aggregate {
 
     #[inline(always)]
     fn meet_packets(&self, ray: &mut Ray, closest: &mut Option<Hit>) {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(avx2) = Avx2::try_new() {
-            return self.packets.meet(avx2, ray, closest);
-        }
-        self.packets.meet(pulp::Scalar256b, ray, closest);
+        with_lanes!(l => self.packets.meet(l.simd(), ray, closest));
     }
 
     #[inline(always)]
     fn packets_occlude(&self, ray: &Ray) -> bool {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(avx2) = Avx2::try_new() {
-            return self.packets.occlude(avx2, ray);
-        }
-        self.packets.occlude(pulp::Scalar256b, ray)
+        with_lanes!(l => self.packets.occlude(l.simd(), ray))
     }
 
     /// Shortens the ray to its hit with one primitive, if there is one.
@@ -252,65 +241,68 @@ fn boxes(primitives: &[Primitive]) -> (Vec<Aabb>, Vec<Aabb>) {
     (boxes(true), boxes(false))
 }
 
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
-    let mut ray = *ray;
-    let mut closest = None;
-    for &plane in &aggregate.planes {
-        aggregate.meet(plane, &mut ray, &mut closest);
+simd_dispatch! {
+    fn closest_hit(aggregate: &Aggregate, ray: &Ray) -> Option<Hit> {
+        let mut ray = *ray;
+        let mut closest = None;
+        for &plane in &aggregate.planes {
+            aggregate.meet(plane, &mut ray, &mut closest);
+        }
+        aggregate.meet_packets(&mut ray, &mut closest);
+        aggregate.bvh.traverse(&mut ray, |primitive, ray| {
+            aggregate.meet(primitive, ray, &mut closest);
+            true
+        });
+        closest
     }
-    aggregate.meet_packets(&mut ray, &mut closest);
-    aggregate.bvh.traverse(&mut ray, |primitive, ray| {
-        aggregate.meet(primitive, ray, &mut closest);
-        true
-    });
-    closest
 }
 
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn closest_hits(aggregate: &Aggregate, rays: &[Ray; LANES]) -> [Option<Hit>; LANES] {
-    let mut rays = *rays;
-    let mut closest = [None; LANES];
-    for (ray, closest) in rays.iter_mut().zip(&mut closest) {
-        for &plane in &aggregate.planes {
-            aggregate.meet(plane, ray, closest);
+simd_dispatch! {
+    fn closest_hits(aggregate: &Aggregate, rays: &[Ray; LANES]) -> [Option<Hit>; LANES] {
+        let mut rays = *rays;
+        let mut closest = [None; LANES];
+        for (ray, closest) in rays.iter_mut().zip(&mut closest) {
+            for &plane in &aggregate.planes {
+                aggregate.meet(plane, ray, closest);
+            }
+            aggregate.meet_packets(ray, closest);
         }
-        aggregate.meet_packets(ray, closest);
-    }
-    aggregate.bvh.traverse_together(&mut rays, |primitive, met, rays| {
-        if let Primitive::Patch(patch) = &aggregate.primitives[primitive as usize] {
-            for (lane, hit) in patch.intersect_together(rays, met).into_iter().enumerate() {
-                if let Some(PatchHit { t, u, v }) = hit {
-                    rays[lane].t_max = t;
-                    closest[lane] = Some(Hit { t, primitive, u, v });
+        aggregate.bvh.traverse_together(&mut rays, |primitive, met, rays| {
+            if let Primitive::Patch(patch) = &aggregate.primitives[primitive as usize] {
+                for (lane, hit) in patch.intersect_together(rays, met).into_iter().enumerate() {
+                    if let Some(PatchHit { t, u, v }) = hit {
+                        rays[lane].t_max = t;
+                        closest[lane] = Some(Hit { t, primitive, u, v });
+                    }
+                }
+            } else {
+                for lane in set_bits(met) {
+                    aggregate.meet(primitive, &mut rays[lane], &mut closest[lane]);
                 }
             }
-        } else {
-            for lane in set_bits(met) {
-                aggregate.meet(primitive, &mut rays[lane], &mut closest[lane]);
-            }
-        }
-    });
-    closest
+        });
+        closest
+    }
 }
 
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn occluded(aggregate: &Aggregate, ray: &Ray) -> bool {
-    if aggregate.planes.iter().any(|&plane| aggregate.primitives[plane as usize].intersect(ray).is_some()) {
-        return true;
+simd_dispatch! {
+    fn occluded(aggregate: &Aggregate, ray: &Ray) -> bool {
+        if aggregate.planes.iter().any(|&plane| aggregate.primitives[plane as usize].intersect(ray).is_some()) {
+            return true;
+        }
+        if aggregate.packets_occlude(ray) {
+            return true;
+        }
+        let mut found = false;
+        aggregate.bvh.traverse(&mut ray.clone(), |primitive, ray| {
+            found = match &aggregate.primitives[primitive as usize] {
+                Primitive::Patch(patch) => patch.occluded(ray),
+                other => other.intersect(ray).is_some(),
+            };
+            !found
+        });
+        found
     }
-    if aggregate.packets_occlude(ray) {
-        return true;
-    }
-    let mut found = false;
-    aggregate.bvh.traverse(&mut ray.clone(), |primitive, ray| {
-        found = match &aggregate.primitives[primitive as usize] {
-            Primitive::Patch(patch) => patch.occluded(ray),
-            other => other.intersect(ray).is_some(),
-        };
-        !found
-    });
-    found
 }
 
 #[cfg(test)]

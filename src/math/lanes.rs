@@ -10,6 +10,11 @@ pub const LANES: usize = 8;
 pub trait Lanes: Copy {
     /// [`LANES`] numbers or masks.
     type Vector: Copy;
+    /// The token of the crate `pulp` for the same instruction set: vectors of four `f64`.
+    type Simd: pulp::Simd;
+
+    /// See [`Lanes::Simd`].
+    fn simd(self) -> Self::Simd;
 
     /// The same number in every lane.
     fn splat(self, x: f32) -> Self::Vector;
@@ -90,12 +95,56 @@ pub fn set_bits(mut mask: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// What the target always has.
+/// Evaluates an expression with the widest [`Lanes`] that the processor has, under the name that stands before `=>`.
+#[cfg(target_arch = "x86_64")]
+macro_rules! with_lanes {
+    ($l:ident => $body:expr) => {
+        if let Some($l) = $crate::math::lanes::Avx2::try_new() {
+            $body
+        } else {
+            let $l = $crate::math::lanes::Portable;
+            $body
+        }
+    };
+}
+/// Evaluates an expression with the widest [`Lanes`] that the processor has, under the name that stands before `=>`.
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! with_lanes {
+    ($l:ident => $body:expr) => {{
+        let $l = $crate::math::lanes::Portable;
+        $body
+    }};
+}
+pub(crate) use with_lanes;
+
+/// Compiles a function once per instruction set; calls choose among the versions at run time. A first parameter
+/// `l: impl Lanes` is not an argument of the function: the body gets the widest lanes that the processor has.
+macro_rules! simd_dispatch {
+    ($(#[$meta:meta])* $vis:vis fn $name:ident($l:ident: impl Lanes, $($arg:tt)*) $(-> $ret:ty)? $body:block) => {
+        $crate::math::lanes::simd_dispatch! {
+            $(#[$meta])* $vis fn $name($($arg)*) $(-> $ret)? { $crate::math::lanes::with_lanes!($l => $body) }
+        }
+    };
+    ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:tt)*) $(-> $ret:ty)? $body:block) => {
+        $(#[$meta])*
+        #[::multiversion::multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+        $vis fn $name($($arg)*) $(-> $ret)? $body
+    };
+}
+pub(crate) use simd_dispatch;
+
+/// The vectors that every processor of the target has.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable;
 
 impl Lanes for Portable {
     type Vector = f32x8;
+    type Simd = pulp::Scalar256b;
+
+    #[inline(always)]
+    fn simd(self) -> pulp::Scalar256b {
+        pulp::Scalar256b
+    }
 
     #[inline(always)]
     fn splat(self, x: f32) -> f32x8 {
@@ -178,6 +227,12 @@ pub use pulp::x86::V3 as Avx2;
 #[cfg(target_arch = "x86_64")]
 impl Lanes for Avx2 {
     type Vector = std::arch::x86_64::__m256;
+    type Simd = Self;
+
+    #[inline(always)]
+    fn simd(self) -> Self {
+        self
+    }
 
     #[inline(always)]
     fn splat(self, x: f32) -> Self::Vector {
@@ -291,9 +346,6 @@ mod tests {
     #[test]
     fn all_sets_of_instructions_agree() {
         check(Portable);
-        #[cfg(target_arch = "x86_64")]
-        if let Some(avx2) = Avx2::try_new() {
-            check(avx2);
-        }
+        with_lanes!(l => check(l));
     }
 }

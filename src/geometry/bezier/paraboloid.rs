@@ -3,8 +3,8 @@
 use super::newton::Domain;
 use super::row::{Range, Row, Rows};
 use super::row_net::RowNet;
+use crate::math::lanes::simd_dispatch;
 use glam::DVec3;
-use multiversion::multiversion;
 use std::array::from_fn;
 
 /// A part is described over a square larger than itself by this factor: the bounds then hold around it as well, and a
@@ -126,15 +126,16 @@ impl Paraboloid {
     }
 }
 
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-fn describe(part: &RowNet, domain: Domain) -> Paraboloid {
-    let ends = (0.5 - 0.5 * MARGIN, 0.5 + 0.5 * MARGIN);
-    let net = part.restricted(ends, ends);
-    let center = rounded(net.middle());
-    let shapeless = Paraboloid::shapeless(&net, domain, center);
-    match mean_gradients(&net) {
-        Some(axes) => Paraboloid { axes: axes.map(rounded), ..shapeless }.fitted(&net),
-        None => shapeless,
+simd_dispatch! {
+    fn describe(part: &RowNet, domain: Domain) -> Paraboloid {
+        let ends = (0.5 - 0.5 * MARGIN, 0.5 + 0.5 * MARGIN);
+        let net = part.restricted(ends, ends);
+        let center = rounded(net.middle());
+        let shapeless = Paraboloid::shapeless(&net, domain, center);
+        match mean_gradients(&net) {
+            Some(axes) => Paraboloid { axes: axes.map(rounded), ..shapeless }.fitted(&net),
+            None => shapeless,
+        }
     }
 }
 

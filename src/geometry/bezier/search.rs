@@ -4,11 +4,8 @@
 use super::newton::{Domain, Knowledge, Outcome, Root, solve};
 use super::ray_net::{ROUNDING, RayNet};
 use super::traverse::Walk;
-#[cfg(target_arch = "x86_64")]
-use crate::math::lanes::Avx2;
-use crate::math::lanes::{Lanes, Portable};
+use crate::math::lanes::{Lanes, simd_dispatch};
 use arrayvec::ArrayVec;
-use multiversion::multiversion;
 
 /// A piece within a box of this size around the ray is a hit even where no single root can be told apart: at a point
 /// where the ray touches the surface. In unit space.
@@ -27,15 +24,12 @@ struct Piece {
     depth: usize,
 }
 
-/// Finds the nearest root in a part of the patch.
-#[cold]
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-pub(super) fn subdivide(walk: &mut Walk, part: &Domain) {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = Avx2::try_new() {
-        return search(avx2, walk, part);
+simd_dispatch! {
+    /// Finds the nearest root in a part of the patch.
+    #[cold]
+    pub(super) fn subdivide(l: impl Lanes, walk: &mut Walk, part: &Domain) {
+        search(l, walk, part)
     }
-    search(Portable, walk, part);
 }
 
 #[inline(always)]

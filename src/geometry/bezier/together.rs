@@ -12,23 +12,17 @@ use super::search::subdivide;
 use super::traverse::{Hit, Stack, Walk, insert};
 use super::tree::Target;
 use super::unit::UnitRay;
-#[cfg(target_arch = "x86_64")]
-use crate::math::lanes::Avx2;
-use crate::math::lanes::{LANES, Lanes, Portable, set_bits};
-use multiversion::multiversion;
+use crate::math::lanes::{LANES, Lanes, set_bits, simd_dispatch};
 use std::array::from_fn;
 
 /// Newton steps in single precision, after which one in double precision mostly is enough.
 const STEPS: usize = 2;
 
-/// The nearest hit of each ray; a ray that is none has none.
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-pub(super) fn nearest_hits(patch: &Prepared, rays: &[UnitRay; LANES]) -> [Option<Hit>; LANES] {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = Avx2::try_new() {
-        return Together::new(avx2, patch, rays).run(avx2);
+simd_dispatch! {
+    /// The nearest hit of each ray; none for [`UnitRay::NONE`].
+    pub(super) fn nearest_hits(l: impl Lanes, patch: &Prepared, rays: &[UnitRay; LANES]) -> [Option<Hit>; LANES] {
+        Together::new(l, patch, rays).run(l)
     }
-    Together::new(Portable, patch, rays).run(Portable)
 }
 
 /// The state of eight rays on their way through a patch.

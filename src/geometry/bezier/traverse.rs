@@ -8,11 +8,8 @@ use super::patch::Prepared;
 use super::search::subdivide;
 use super::tree::{Link, Target};
 use super::unit::UnitRay;
-#[cfg(target_arch = "x86_64")]
-use crate::math::lanes::Avx2;
-use crate::math::lanes::{LANES, Lanes, Portable, set_bits};
+use crate::math::lanes::{LANES, Lanes, set_bits, simd_dispatch};
 use arrayvec::ArrayVec;
-use multiversion::multiversion;
 
 /// A root that counts, with the parameter t of the scene ray.
 #[derive(Clone, Copy, Debug)]
@@ -133,22 +130,16 @@ pub(super) fn insert(stack: &mut Stack, bottom: usize, entry: (f32, Link)) {
     }
 }
 
-/// The nearest hit of a ray.
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-pub(super) fn nearest_hit(patch: &Prepared, ray: UnitRay) -> Option<Hit> {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = Avx2::try_new() {
-        return Walk::new(patch, ray).run::<_, false>(avx2);
+simd_dispatch! {
+    /// The nearest hit of a ray.
+    pub(super) fn nearest_hit(l: impl Lanes, patch: &Prepared, ray: UnitRay) -> Option<Hit> {
+        Walk::new(patch, ray).run::<_, false>(l)
     }
-    Walk::new(patch, ray).run::<_, false>(Portable)
 }
 
-/// Whether a ray has any hit.
-#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
-pub(super) fn has_hit(patch: &Prepared, ray: UnitRay) -> bool {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = Avx2::try_new() {
-        return Walk::new(patch, ray).run::<_, true>(avx2).is_some();
+simd_dispatch! {
+    /// Whether a ray has any hit.
+    pub(super) fn has_hit(l: impl Lanes, patch: &Prepared, ray: UnitRay) -> bool {
+        Walk::new(patch, ray).run::<_, true>(l).is_some()
     }
-    Walk::new(patch, ray).run::<_, true>(Portable).is_some()
 }
