@@ -75,7 +75,7 @@ fn count<T>(rays: &[Ray], hit: impl Fn(&Ray) -> Option<T>) -> usize {
     rays.iter().filter(|ray| hit(black_box(ray)).is_some()).count()
 }
 
-fn count_together(rays: &[Ray], patches: &Aggregate) -> usize {
+fn count_packets(rays: &[Ray], patches: &Aggregate) -> usize {
     let hits = |bundle: &[Ray; LANES]| patches.closest_hits(black_box(bundle)).into_iter().flatten().count();
     rays.as_chunks::<LANES>().0.iter().map(hits).sum()
 }
@@ -94,7 +94,7 @@ fn speed(c: &mut Criterion) {
                 b.iter(|| rays.par_iter().filter(|ray| patches.closest_hit(black_box(ray)).is_some()).count())
             });
             if kind == "coherent" {
-                group.bench_function("patches, eight rays together", |b| b.iter(|| count_together(&rays, &patches)));
+                group.bench_function("patches, packets of eight rays", |b| b.iter(|| count_packets(&rays, &patches)));
             }
             for (steps, mesh) in &meshes {
                 let id = BenchmarkId::new("triangles", steps);

@@ -1,222 +1,104 @@
-use super::bezier::{Patch, PatchHit};
-use super::packets::Packets;
-use super::{Bvh, Plane, Quad, Sphere};
+use super::bezier::PatchHit;
+use super::blocks::PrimitiveBlocks;
+use super::{Bvh, Hit, Primitive};
 use crate::math::lanes::{LANES, Lanes, set_bits, simd_dispatch, with_lanes};
 use crate::math::{Aabb, Ray};
-use glam::{DVec2, DVec3};
-use std::sync::Arc;
+use glam::DVec3;
 
-/// One surface that a ray can meet.
-#[derive(Clone, Debug)]
-pub enum Primitive {
-    /// A parallelogram.
-    Quad(Quad),
-    /// A sphere.
-    Sphere(Sphere),
-    /// An unbounded plane.
-    Plane(Plane),
-    /// A bicubic Bezier patch with its own tree.
-    Patch(Arc<Patch>),
-}
+/// Up to this many quads and spheres go into blocks, which every ray tests; more of them go into the BVH.
+const MAX_IN_BLOCKS: usize = 24;
 
-/// Where a ray meets a primitive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// In units of the ray's direction.
-    pub t: f64,
-    /// Index of the primitive.
-    pub primitive: u32,
-    /// Parameters of quads and patches; unused by others.
-    pub u: f64,
-    /// See `u`.
-    pub v: f64,
-}
-
-/// How a surface's parameters run where it was hit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tangents {
-    /// As in the scene format: 0 to 1 over a quad, a patch or a sphere, scene units on a plane.
-    pub uv: DVec2,
-    /// Derivative of the position with respect to u.
-    pub dpdu: DVec3,
-    /// Derivative of the position with respect to v.
-    pub dpdv: DVec3,
-}
-
-impl Primitive {
-    /// Empty for a plane, which has no bounds.
-    pub fn bounds(&self) -> Aabb {
-        match self {
-            Self::Quad(quad) => quad.bounds(),
-            Self::Sphere(sphere) => sphere.bounds(),
-            Self::Patch(patch) => patch.bounds(),
-            Self::Plane(_) => Aabb::EMPTY,
-        }
-    }
-
-    /// Whether it stands beside a quad: only over its edges, or not over it at all.
-    pub fn is_beside(&self, quad: &Quad) -> bool {
-        match self {
-            Self::Quad(other) => quad.is_beside(&other.corners()),
-            Self::Sphere(sphere) => quad.is_beside(&sphere.bounds().corners()),
-            // The surface lies in the convex hull of its control points.
-            Self::Patch(patch) => quad.is_beside(patch.net().points.as_flattened()),
-            Self::Plane(plane) => {
-                let heights = quad.corners().map(|corner| plane.normal().dot(corner - plane.position(0.0, 0.0)));
-                let tolerance = 1e-12 * (quad.edges().0.length() + quad.edges().1.length());
-                heights.iter().all(|h| *h >= -tolerance) || heights.iter().all(|h| *h <= tolerance)
-            }
-        }
-    }
-
-    /// Whether it may go in packets.
-    fn is_simple(&self) -> bool {
-        matches!(self, Self::Quad(_) | Self::Sphere(_))
-    }
-
-    #[inline(always)]
-    fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
-        match self {
-            Self::Quad(quad) => quad.intersect(ray),
-            Self::Sphere(sphere) => sphere.intersect(ray).map(|t| (t, 0.0, 0.0)),
-            Self::Patch(patch) => patch.intersect(ray).map(|PatchHit { t, u, v }| (t, u, v)),
-            Self::Plane(plane) => plane.intersect(ray),
-        }
-    }
-
-    /// Position and geometric unit normal (to the front or the outside) of a hit, from the surface itself: as exact
-    /// as its own equation, whatever the ray's length.
-    pub fn surface(&self, ray: &Ray, hit: &Hit) -> (DVec3, DVec3) {
-        match self {
-            Self::Quad(quad) => (quad.position(hit.u, hit.v), quad.normal()),
-            Self::Plane(plane) => (plane.position(hit.u, hit.v), plane.normal()),
-            Self::Sphere(sphere) => {
-                let normal = sphere.normal(ray.at(hit.t));
-                (sphere.center + sphere.radius * normal, normal)
-            }
-            Self::Patch(patch) => (patch.net().eval(hit.u, hit.v), patch.normal(hit.u, hit.v)),
-        }
-    }
-
-    /// How far a point is from the surface; of a patch, from boxes that hold it closely. `limit` where that is less.
-    fn distance(&self, point: DVec3, limit: f64) -> f64 {
-        let distance = match self {
-            Self::Quad(quad) => quad.distance(point),
-            Self::Sphere(sphere) => sphere.distance(point),
-            Self::Plane(plane) => plane.distance(point),
-            Self::Patch(patch) => patch.distance(point, limit),
-        };
-        distance.min(limit)
-    }
-
-    /// How the parameters run at a hit with this normal.
-    pub fn tangents(&self, hit: &Hit, normal: DVec3) -> Tangents {
-        let uv = DVec2::new(hit.u, hit.v);
-        match self {
-            Self::Quad(quad) => Tangents { uv, dpdu: quad.edges().0, dpdv: quad.edges().1 },
-            Self::Plane(plane) => Tangents { uv, dpdu: plane.axes().0, dpdv: plane.axes().1 },
-            Self::Sphere(sphere) => {
-                let (dpdu, dpdv) = sphere.derivatives(normal);
-                Tangents { uv: Sphere::uv(normal), dpdu, dpdv }
-            }
-            Self::Patch(patch) => {
-                let d = patch.net().derivatives(hit.u, hit.v);
-                Tangents { uv, dpdu: d.dpdu, dpdv: d.dpdv }
-            }
-        }
-    }
-}
-
-/// Up to so many quads and spheres are tested one and all; more of them go into the tree.
-const FEW: usize = 24;
-
-/// All primitives of a scene: planes and a few quads and spheres, which every ray is tested against, and the tree over the
-/// others.
+/// All primitives of a scene. Every ray tests the planes and, where they are few, the quads and spheres; a BVH holds the
+/// other primitives.
 #[derive(Clone, Debug, Default)]
 pub struct Aggregate {
     primitives: Vec<Primitive>,
     planes: Vec<u32>,
-    packets: Packets,
-    /// Over what is in the packets, to look for what is near a point.
-    few: Bvh,
-    /// Over all that is neither a plane nor in the packets.
+    blocks: PrimitiveBlocks,
+    /// The primitives in the blocks, for distances to points.
+    blocks_bvh: Bvh,
+    /// The primitives that are neither planes nor in the blocks.
     bvh: Bvh,
 }
 
 impl Aggregate {
-    /// Builds the tree; takes n log n.
+    /// Builds the aggregate, in O(n log n) for n primitives.
     pub fn new(primitives: Vec<Primitive>) -> Self {
         let planes = (0..primitives.len() as u32).filter(|&i| matches!(primitives[i as usize], Primitive::Plane(_)));
-        let (few, others) = boxes(&primitives);
+        let (in_blocks, others) = boxes(&primitives);
         Self {
             planes: planes.collect(),
-            packets: packets(&primitives),
-            few: Bvh::build(&few),
+            blocks: blocks(&primitives),
+            blocks_bvh: Bvh::build(&in_blocks),
             bvh: Bvh::build(&others),
             primitives,
         }
     }
 
-    /// The same tree fitted to moved primitives: as many, of the same kinds, in the same order. Linear time.
+    /// The aggregate of moved primitives, of the same number, kinds and order: its BVH is refitted, in O(n).
     pub fn refitted(&self, primitives: Vec<Primitive>) -> Self {
-        let (few_boxes, other_boxes) = boxes(&primitives);
-        let (mut few, mut bvh) = (self.few.clone(), self.bvh.clone());
-        few.refit(&few_boxes);
-        bvh.refit(&other_boxes);
-        Self { planes: self.planes.clone(), packets: packets(&primitives), few, bvh, primitives }
+        let (in_blocks, others) = boxes(&primitives);
+        let (mut blocks_bvh, mut bvh) = (self.blocks_bvh.clone(), self.bvh.clone());
+        blocks_bvh.refit(&in_blocks);
+        bvh.refit(&others);
+        Self { planes: self.planes.clone(), blocks: blocks(&primitives), blocks_bvh, bvh, primitives }
     }
 
-    /// In the order they were given.
+    /// The primitives, in the order given to [`Aggregate::new`].
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
     }
 
-    /// The box around all that have bounds.
+    /// The box around all bounded primitives.
     pub fn bounds(&self) -> Aabb {
-        self.few.bounds().union(&self.bvh.bounds())
+        self.blocks_bvh.bounds().union(&self.bvh.bounds())
     }
 
-    /// The nearest hit with `t_min < t < t_max`.
+    /// The nearest hit with `t_min < t < t_max`; `None` for a miss.
     #[inline]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         closest_hit(self, ray)
     }
 
-    /// The nearest hits of eight rays: the same as one by one, but quicker for rays that go nearly the same way.
+    /// The nearest hits of a packet of eight rays. They are those of [`Aggregate::closest_hit`] up to rounding; for coherent
+    /// rays this is faster.
     #[inline]
     pub fn closest_hits(&self, rays: &[Ray; LANES]) -> [Option<Hit>; LANES] {
         closest_hits(self, rays)
     }
 
-    /// Whether anything is hit with `t_min < t < t_max`.
+    /// Whether the ray has any hit with `t_min < t < t_max`.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
         occluded(self, ray)
     }
 
-    /// How far a point is from the nearest of those primitives that count, or `limit` if that is less.
-    pub fn distance(&self, point: DVec3, limit: f64, counts: impl Fn(u32) -> bool) -> f64 {
+    /// The distance of a point to the nearest primitive with an index that `includes` accepts, or `limit` if that is less;
+    /// for a patch, the distance to the boxes around its subpatches.
+    pub fn distance(&self, point: DVec3, limit: f64, includes: impl Fn(u32) -> bool) -> f64 {
         let to = |primitive: u32, limit: f64| {
-            if counts(primitive) { self.primitives[primitive as usize].distance(point, limit) } else { limit }
+            if includes(primitive) { self.primitives[primitive as usize].distance(point, limit) } else { limit }
         };
         let to_planes = self.planes.iter().fold(limit, |nearest, &plane| to(plane, nearest));
-        let to_few = self.few.distance(point, to_planes, to);
-        self.bvh.distance(point, to_few, to)
+        let to_blocks = self.blocks_bvh.distance(point, to_planes, to);
+        self.bvh.distance(point, to_blocks, to)
     }
 
+    /// Shortens the ray to its nearest hit in the blocks, if there is one.
     #[inline(always)]
-    fn meet_packets(&self, ray: &mut Ray, closest: &mut Option<Hit>) {
-        with_lanes!(l => self.packets.meet(l.simd(), ray, closest));
+    fn intersect_blocks(&self, ray: &mut Ray, closest: &mut Option<Hit>) {
+        with_lanes!(l => self.blocks.intersect(l.simd(), ray, closest));
     }
 
+    /// Whether the ray hits anything in the blocks.
     #[inline(always)]
-    fn packets_occlude(&self, ray: &Ray) -> bool {
-        with_lanes!(l => self.packets.occlude(l.simd(), ray))
+    fn blocks_occlude(&self, ray: &Ray) -> bool {
+        with_lanes!(l => self.blocks.occluded(l.simd(), ray))
     }
 
     /// Shortens the ray to its hit with one primitive, if there is one.
     #[inline(always)]
-    fn meet(&self, primitive: u32, ray: &mut Ray, closest: &mut Option<Hit>) {
+    fn intersect(&self, primitive: u32, ray: &mut Ray, closest: &mut Option<Hit>) {
         if let Some((t, u, v)) = self.primitives[primitive as usize].intersect(ray) {
             ray.t_max = t;
             *closest = Some(Hit { t, primitive, u, v });
@@ -224,20 +106,21 @@ impl Aggregate {
     }
 }
 
-/// Whether the primitives are so few that quads and spheres go in packets.
-fn has_few(primitives: &[Primitive]) -> bool {
-    primitives.iter().filter(|primitive| primitive.is_simple()).count() <= FEW
+/// Whether the quads and spheres are few enough for blocks.
+fn uses_blocks(primitives: &[Primitive]) -> bool {
+    primitives.iter().filter(|primitive| primitive.is_in_blocks()).count() <= MAX_IN_BLOCKS
 }
 
-fn packets(primitives: &[Primitive]) -> Packets {
-    if has_few(primitives) { Packets::new((0..).zip(primitives)) } else { Packets::default() }
+fn blocks(primitives: &[Primitive]) -> PrimitiveBlocks {
+    if uses_blocks(primitives) { PrimitiveBlocks::new((0..).zip(primitives)) } else { PrimitiveBlocks::default() }
 }
 
-/// The boxes of what is in the packets and of the others; empty for the rest.
+/// For each primitive its box in the BVH of the blocks, and its box in the other BVH; empty where it is not in that one.
 fn boxes(primitives: &[Primitive]) -> (Vec<Aabb>, Vec<Aabb>) {
-    let few = has_few(primitives);
+    let uses_blocks = uses_blocks(primitives);
     let boxed = |primitive: &Primitive, wanted: bool| if wanted { primitive.bounds() } else { Aabb::EMPTY };
-    let boxes = |in_packets: bool| primitives.iter().map(|p| boxed(p, (few && p.is_simple()) == in_packets)).collect();
+    let boxes =
+        |in_blocks: bool| primitives.iter().map(|p| boxed(p, (uses_blocks && p.is_in_blocks()) == in_blocks)).collect();
     (boxes(true), boxes(false))
 }
 
@@ -246,11 +129,11 @@ simd_dispatch! {
         let mut ray = *ray;
         let mut closest = None;
         for &plane in &aggregate.planes {
-            aggregate.meet(plane, &mut ray, &mut closest);
+            aggregate.intersect(plane, &mut ray, &mut closest);
         }
-        aggregate.meet_packets(&mut ray, &mut closest);
+        aggregate.intersect_blocks(&mut ray, &mut closest);
         aggregate.bvh.traverse(&mut ray, |primitive, ray| {
-            aggregate.meet(primitive, ray, &mut closest);
+            aggregate.intersect(primitive, ray, &mut closest);
             true
         });
         closest
@@ -263,21 +146,21 @@ simd_dispatch! {
         let mut closest = [None; LANES];
         for (ray, closest) in rays.iter_mut().zip(&mut closest) {
             for &plane in &aggregate.planes {
-                aggregate.meet(plane, ray, closest);
+                aggregate.intersect(plane, ray, closest);
             }
-            aggregate.meet_packets(ray, closest);
+            aggregate.intersect_blocks(ray, closest);
         }
-        aggregate.bvh.traverse_together(&mut rays, |primitive, met, rays| {
+        aggregate.bvh.traverse_packet(&mut rays, |primitive, active, rays| {
             if let Primitive::Patch(patch) = &aggregate.primitives[primitive as usize] {
-                for (lane, hit) in patch.intersect_together(rays, met).into_iter().enumerate() {
+                for (lane, hit) in patch.intersect_packet(rays, active).into_iter().enumerate() {
                     if let Some(PatchHit { t, u, v }) = hit {
                         rays[lane].t_max = t;
                         closest[lane] = Some(Hit { t, primitive, u, v });
                     }
                 }
             } else {
-                for lane in set_bits(met) {
-                    aggregate.meet(primitive, &mut rays[lane], &mut closest[lane]);
+                for lane in set_bits(active) {
+                    aggregate.intersect(primitive, &mut rays[lane], &mut closest[lane]);
                 }
             }
         });
@@ -290,7 +173,7 @@ simd_dispatch! {
         if aggregate.planes.iter().any(|&plane| aggregate.primitives[plane as usize].intersect(ray).is_some()) {
             return true;
         }
-        if aggregate.packets_occlude(ray) {
+        if aggregate.blocks_occlude(ray) {
             return true;
         }
         let mut found = false;
@@ -308,8 +191,10 @@ simd_dispatch! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::bezier::ControlNet;
+    use crate::geometry::bezier::{ControlNet, Patch};
+    use crate::geometry::{Plane, Quad, Sphere};
     use crate::math::{Sampler, Stream};
+    use std::sync::Arc;
 
     fn bent_net(offset: DVec3) -> ControlNet {
         let point = |i: usize, j: usize| {
@@ -319,7 +204,7 @@ mod tests {
         ControlNet { points: std::array::from_fn(|i| std::array::from_fn(|j| point(i, j))) }
     }
 
-    /// The distance to a primitive, or to the nearest of many points on it, so many that no place is farther than 0.02 from one.
+    /// The distance to a primitive, or to the nearest of many points on it, so many that no point of the surface is farther than 0.02 from one.
     fn by_sampling(primitive: &Primitive, from: DVec3) -> f64 {
         let grid = (0..=100).flat_map(|i| (0..=100).map(move |j| (f64::from(i) / 100.0, f64::from(j) / 100.0)));
         let nearest = |at: &dyn Fn(f64, f64) -> DVec3| {
@@ -401,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn eight_rays_together_find_what_each_finds_alone() {
+    fn a_packet_finds_the_hits_of_its_rays() {
         let aggregate = scattered(40);
         let (mut hits, mut hits_on_patches) = (0, 0);
         for k in 0..2000 {
@@ -421,11 +306,11 @@ mod tests {
                 };
                 ray
             });
-            for (ray, together) in rays.iter().zip(aggregate.closest_hits(&rays)) {
+            for (ray, in_packet) in rays.iter().zip(aggregate.closest_hits(&rays)) {
                 let alone = aggregate.closest_hit(ray);
-                assert_eq!(alone.map(|hit| hit.primitive), together.map(|hit| hit.primitive), "{ray:?}");
-                if let (Some(a), Some(b)) = (alone, together) {
-                    // Newton's method comes from elsewhere.
+                assert_eq!(alone.map(|hit| hit.primitive), in_packet.map(|hit| hit.primitive), "{ray:?}");
+                if let (Some(a), Some(b)) = (alone, in_packet) {
+                    // Newton's method starts elsewhere.
                     assert!((a.t - b.t).abs() < 1e-10 * a.t, "{ray:?}: {a:?} {b:?}");
                     hits += 1;
                     hits_on_patches += usize::from(a.primitive % 3 == 0 && a.primitive > 0);

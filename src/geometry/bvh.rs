@@ -1,18 +1,19 @@
-//! A bounding volume hierarchy with eight children a node, over anything that has a box.
+//! A bounding volume hierarchy with eight children per node \[DHK08\], built by the surface area heuristic \[Wald07\], over
+//! anything that has a box.
 
 use crate::math::lanes::LANES;
 use crate::math::{Aabb, Ray};
 use arrayvec::ArrayVec;
 
 const WIDTH: usize = 8;
-/// From this level on nodes are split in halves, so that no arrangement of boxes makes the tree deep.
+/// Levels built by the surface area heuristic. Nodes below split in halves, which bounds the depth of the tree.
 const HEURISTIC_LEVELS: usize = 12;
-/// Each level leaves at most 7 entries behind; halving 2^31 items by eights takes 11 levels more.
+/// Each level leaves at most 7 entries on the stack; halving 2^31 items by eights takes 11 levels more.
 const STACK_CAPACITY: usize = 8 + 7 * (HEURISTIC_LEVELS + 11);
-/// Bins of the surface area heuristic: more than 16 hardly improve trees of a few thousand boxes.
+/// Bins of the surface area heuristic. More than 16 hardly improve trees of a few thousand boxes.
 const BINS: usize = 16;
 
-/// Boxes of eight children in columns, so that one pass of vector instructions tests all of them.
+/// The boxes of eight children as a structure of arrays, so that SIMD instructions test all of them.
 #[derive(Clone, Debug)]
 struct Node {
     min: [[f64; WIDTH]; 3],
@@ -22,7 +23,7 @@ struct Node {
     count: u32,
 }
 
-/// A tree over boxes, numbered as they were given.
+/// A tree over boxes. An item is the index of its box.
 #[derive(Clone, Debug, Default)]
 pub struct Bvh {
     /// A parent stands before its children.
@@ -30,7 +31,7 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    /// The tree over these boxes. Empty boxes are never visited. Takes n log n.
+    /// The tree over these boxes, in O(n log n). Empty boxes are never visited.
     pub fn build(boxes: &[Aabb]) -> Self {
         let mut items: Vec<u32> = (0..boxes.len() as u32).filter(|&i| !boxes[i as usize].is_empty()).collect();
         let mut bvh = Self::default();
@@ -51,7 +52,7 @@ impl Bvh {
         index as i32
     }
 
-    /// Fits every box again after items have moved; the tree keeps its shape. Takes time linear in the items.
+    /// Refits the boxes of the nodes to moved items, in O(n); the tree keeps its topology.
     pub fn refit(&mut self, boxes: &[Aabb]) {
         for index in (0..self.nodes.len()).rev() {
             for slot in 0..self.nodes[index].count as usize {
@@ -62,13 +63,13 @@ impl Bvh {
         }
     }
 
-    /// The box around everything.
+    /// The box around all items.
     pub fn bounds(&self) -> Aabb {
         self.nodes.first().map_or(Aabb::EMPTY, Node::bounds)
     }
 
-    /// Calls `visit(item, ray)` for items whose box the ray meets, near ones first. `visit` may shorten the ray
-    /// (`t_max`); it returns whether to go on.
+    /// Calls `visit(item, ray)` for the items whose box the ray hits, near items first. `visit` may shorten the ray
+    /// (`t_max`); it returns whether to continue.
     #[inline(always)]
     pub fn traverse(&self, ray: &mut Ray, mut visit: impl FnMut(u32, &mut Ray) -> bool) {
         if self.nodes.is_empty() {
@@ -93,40 +94,41 @@ impl Bvh {
         }
     }
 
-    /// Calls `visit(item, bits, rays)` for items whose box any of eight rays meets, with a bit for each ray that does.
-    /// `visit` may shorten the rays.
+    /// Calls `visit(item, active, rays)` for the items whose box a ray of the packet hits; `active` has a bit for each such
+    /// ray. `visit` may shorten the rays.
     #[inline(always)]
-    pub fn traverse_together(&self, rays: &mut [Ray; LANES], mut visit: impl FnMut(u32, u32, &mut [Ray; LANES])) {
-        let columns = Columns::new(rays);
+    pub fn traverse_packet(&self, rays: &mut [Ray; LANES], mut visit: impl FnMut(u32, u32, &mut [Ray; LANES])) {
+        let packet = PacketColumns::new(rays);
         let mut stack: ArrayVec<(f64, i32, u32), STACK_CAPACITY> = ArrayVec::new();
         if !self.nodes.is_empty() {
             stack.push((f64::NEG_INFINITY, 0, (1 << LANES) - 1));
         }
-        while let Some((near, child, mut met)) = stack.pop() {
+        while let Some((near, child, mut active)) = stack.pop() {
             for (lane, ray) in rays.iter().enumerate() {
-                // `near` is where the first of the rays enters: no later than this one does.
-                met &= !(u32::from(near > ray.t_max) << lane);
+                // `near` is the entry of the first ray: this ray enters no earlier.
+                active &= !(u32::from(near > ray.t_max) << lane);
             }
-            if met == 0 {
+            if active == 0 {
                 continue;
             }
             if child < 0 {
-                visit(!child as u32, met, rays);
+                visit(!child as u32, active, rays);
                 continue;
             }
             let node = &self.nodes[child as usize];
             let bottom = stack.len();
             for slot in 0..node.count as usize {
-                let (entered, near) = node.entry_together(slot, &columns, rays);
-                if entered & met != 0 {
-                    stack.push((near, node.child[slot], entered & met));
+                let (entered, near) = node.packet_entry(slot, &packet, rays);
+                if entered & active != 0 {
+                    stack.push((near, node.child[slot], entered & active));
                 }
             }
             stack[bottom..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
         }
     }
 
-    /// The least distance of a point to any item, where it is less than `limit`: `distance(item, limit)` tells that of one.
+    /// The distance of a point to the nearest item, or `limit` if that is less. `distance(item, limit)` gives the distance to
+    /// one item, or its limit.
     #[inline(always)]
     pub fn distance(&self, point: glam::DVec3, limit: f64, mut distance: impl FnMut(u32, f64) -> f64) -> f64 {
         let mut nearest = limit;
@@ -179,7 +181,7 @@ impl Node {
             .fold(Aabb::EMPTY, |all, one| all.union(&one))
     }
 
-    /// For each child the squared distance of a point to its box, infinite where there is none.
+    /// For each child, the squared distance of a point to its box; infinite for an empty slot.
     #[inline(always)]
     fn distances_squared(&self, point: glam::DVec3) -> [f64; WIDTH] {
         let mut squares = [0.0; WIDTH];
@@ -192,18 +194,18 @@ impl Node {
         squares
     }
 
-    /// Which of eight rays meet the box of a child (a bit each), and the least t at which one enters it.
+    /// The rays of a packet that hit the box of a child (a bit each), and the least t of an entry.
     #[inline(always)]
-    fn entry_together(&self, slot: usize, columns: &Columns, rays: &[Ray; LANES]) -> (u32, f64) {
-        let (mut near, mut far): ([f64; LANES], [f64; LANES]) = (columns.t_min, [0.0; LANES]);
+    fn packet_entry(&self, slot: usize, packet: &PacketColumns, rays: &[Ray; LANES]) -> (u32, f64) {
+        let (mut near, mut far): ([f64; LANES], [f64; LANES]) = (packet.t_min, [0.0; LANES]);
         for (far, ray) in far.iter_mut().zip(rays) {
             *far = ray.t_max;
         }
         for axis in 0..3 {
             let (low, high) = (self.min[axis][slot], self.max[axis][slot]);
             for lane in 0..LANES {
-                let a = (low - columns.origin[axis][lane]) * columns.inverse[axis][lane];
-                let b = (high - columns.origin[axis][lane]) * columns.inverse[axis][lane];
+                let a = (low - packet.origin[axis][lane]) * packet.inverse[axis][lane];
+                let b = (high - packet.origin[axis][lane]) * packet.inverse[axis][lane];
                 let (enter, leave) = if a < b { (a, b) } else { (b, a) };
                 near[lane] = if enter > near[lane] { enter } else { near[lane] };
                 far[lane] = if leave < far[lane] { leave } else { far[lane] };
@@ -211,17 +213,17 @@ impl Node {
         }
         let (mut entered, mut nearest) = (0, f64::INFINITY);
         for lane in 0..LANES {
-            // Far grows as for a single ray.
-            let meets = near[lane] <= far[lane] * (1.0 + 4.0 * f64::EPSILON);
-            entered |= u32::from(meets) << lane;
-            nearest = if meets && near[lane] < nearest { near[lane] } else { nearest };
+            // The exit is enlarged as for a single ray.
+            let hits = near[lane] <= far[lane] * (1.0 + 4.0 * f64::EPSILON);
+            entered |= u32::from(hits) << lane;
+            nearest = if hits && near[lane] < nearest { near[lane] } else { nearest };
         }
         (entered, nearest)
     }
 
-    /// For each child the t at which the ray enters its box, or infinity where it misses.
+    /// For each child, t of the ray's entry into its box, by the slab test \[KayKajiya86\]; infinity for a miss.
     ///
-    /// Comparisons are written so that a NaN (a ray in a face of the box) leaves the interval as it was.
+    /// A NaN (from a ray in a face of the box) leaves the interval unchanged, by the form of the comparisons.
     #[inline(always)]
     fn entry_distances(&self, ray: &Ray, inverse: glam::DVec3) -> [f64; WIDTH] {
         let mut near = [ray.t_min; WIDTH];
@@ -238,22 +240,22 @@ impl Node {
             }
         }
         for slot in 0..WIDTH {
-            // Far grows by the rounding of a product, so that a box of no thickness is not lost.
+            // The exit is enlarged by the rounding of a product, so that rays do not miss boxes without thickness \[Ize13\].
             near[slot] = if near[slot] <= far[slot] * (1.0 + 4.0 * f64::EPSILON) { near[slot] } else { f64::INFINITY };
         }
         near
     }
 }
 
-/// Eight rays, coordinate by coordinate.
-struct Columns {
+/// The eight rays of a packet as a structure of arrays.
+struct PacketColumns {
     origin: [[f64; LANES]; 3],
-    /// 1 over the direction; finite, so that a ray in a face of a box makes no NaN.
+    /// 1 over the direction, finite, so that a ray in a face of a box yields no NaN.
     inverse: [[f64; LANES]; 3],
     t_min: [f64; LANES],
 }
 
-impl Columns {
+impl PacketColumns {
     #[inline(always)]
     fn new(rays: &[Ray; LANES]) -> Self {
         let (mut origin, mut inverse, mut t_min) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3], [0.0; LANES]);
@@ -269,10 +271,10 @@ impl Columns {
     }
 }
 
-/// Nodes and items still to visit with the t where they begin, the nearest on top.
+/// Nodes and items to visit, each with t of the entry, the nearest on top.
 type Stack = ArrayVec<(f64, i32), STACK_CAPACITY>;
 
-/// Pushes the children that were met, far ones first, by insertion: there are few.
+/// Pushes the children that the ray hits, far ones first, by insertion sort: they are few.
 #[inline(always)]
 fn push_sorted(stack: &mut Stack, near: &[f64; WIDTH], children: &[i32]) {
     let first = stack.len();
@@ -293,8 +295,8 @@ fn union_of(boxes: &[Aabb], items: &[u32]) -> Aabb {
     items.iter().fold(Aabb::EMPTY, |all, &i| all.union(&boxes[i as usize]))
 }
 
-/// Divides items into up to eight groups: again and again splits the group that costs most, or the largest where groups
-/// are only halved.
+/// Divides items into up to eight groups. Each step splits the group with the greatest cost, which is its size times the area
+/// of its box, or its size alone without `by_area`.
 fn partition<'a>(boxes: &[Aabb], items: &'a mut [u32], by_area: bool) -> Vec<&'a mut [u32]> {
     let mut groups = vec![items];
     while groups.len() < WIDTH {
@@ -311,8 +313,8 @@ fn partition<'a>(boxes: &[Aabb], items: &'a mut [u32], by_area: bool) -> Vec<&'a
     groups
 }
 
-/// Reorders the items into two parts by the binned surface area heuristic and returns where the second begins; halves
-/// where all centres coincide.
+/// Reorders the items into two groups by the binned surface area heuristic and returns the start of the second group. Splits
+/// in halves where all centers coincide.
 fn split_by_area(boxes: &[Aabb], items: &mut [u32]) -> usize {
     let center = |i: u32| boxes[i as usize].center();
     let extent = Aabb::around(items.iter().map(|&i| center(i)));
@@ -328,8 +330,8 @@ fn split_by_area(boxes: &[Aabb], items: &mut [u32]) -> usize {
             *bin = (bin.0.union(&boxes[i as usize]), bin.1 + 1);
         }
         for boundary in 1..BINS {
-            let sum = |part: &[(Aabb, usize)]| {
-                part.iter().fold((Aabb::EMPTY, 0), |all, bin| (all.0.union(&bin.0), all.1 + bin.1))
+            let sum = |bins: &[(Aabb, usize)]| {
+                bins.iter().fold((Aabb::EMPTY, 0), |all, bin| (all.0.union(&bin.0), all.1 + bin.1))
             };
             let (left, right) = (sum(&bins[..boundary]), sum(&bins[boundary..]));
             if left.1 == 0 || right.1 == 0 {
@@ -346,7 +348,7 @@ fn split_by_area(boxes: &[Aabb], items: &mut [u32]) -> usize {
     items.partition_point(|&i| bin_of(i, axis) < boundary)
 }
 
-/// Reorders the items along the widest axis of their centres and returns the middle.
+/// Reorders the items along the widest axis of their centers and returns the middle index.
 fn split_in_halves(boxes: &[Aabb], items: &mut [u32]) -> usize {
     let center = |i: u32| boxes[i as usize].center();
     let axis = Aabb::around(items.iter().map(|&i| center(i))).size().max_position();

@@ -11,19 +11,19 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane through `point`. `u_axis` is laid into the plane; without one it is the x axis, or z where the
-    /// normal is along x. A zero normal makes a plane that meets no ray.
+    /// The plane through `point`. u runs along `u_axis` projected into the plane; without it along the x axis, or along z if
+    /// the normal is along x. No ray hits a plane with a zero normal.
     pub fn new(point: DVec3, normal: DVec3, u_axis: Option<DVec3>) -> Self {
         let normal = normal.try_normalize().unwrap_or(DVec3::ZERO);
-        let laid = |axis: DVec3| {
+        let projected = |axis: DVec3| {
             let in_plane = axis - normal * normal.dot(axis);
             (in_plane.length_squared() > 1e-12 * axis.length_squared()).then(|| in_plane.normalize_or_zero())
         };
-        let u_axis = u_axis.and_then(laid).or_else(|| laid(DVec3::X)).unwrap_or(DVec3::Z);
+        let u_axis = u_axis.and_then(projected).or_else(|| projected(DVec3::X)).unwrap_or(DVec3::Z);
         Self { point, normal, u_axis, v_axis: normal.cross(u_axis) }
     }
 
-    /// The hit as (t, u, v).
+    /// The hit as (t, u, v), with u and v in scene units; `None` for a miss.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         let t = self.normal.dot(self.point - ray.origin) / self.normal.dot(ray.direction);
@@ -34,7 +34,7 @@ impl Plane {
         Some((t, p.dot(self.u_axis), p.dot(self.v_axis)))
     }
 
-    /// How far a point is from the plane.
+    /// The distance of a point to the plane.
     pub fn distance(&self, point: DVec3) -> f64 {
         (point - self.point).dot(self.normal).abs()
     }
@@ -44,7 +44,7 @@ impl Plane {
         self.point + u * self.u_axis + v * self.v_axis
     }
 
-    /// Unit length; zero if none was given.
+    /// The unit normal; zero if the plane was given none.
     pub fn normal(&self) -> DVec3 {
         self.normal
     }

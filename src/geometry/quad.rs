@@ -1,8 +1,8 @@
 use crate::math::{Aabb, Ray};
 use glam::{DVec2, DVec3};
 
-/// How far outside its edges a quad still counts as hit, in units of (u, v): wider than the rounding of a hit, so
-/// that two quads that share an edge leave no gap between them.
+/// How far outside of its edges a quad still is hit, in units of (u, v): above the rounding of a hit, so that no ray slips
+/// between two quads that share an edge.
 pub(super) const EDGE_TOLERANCE: f64 = 1e-12;
 
 /// A parallelogram, prepared for intersection.
@@ -18,7 +18,7 @@ pub struct Quad {
 }
 
 impl Quad {
-    /// The parallelogram `corner + u edge_u + v edge_v` for u and v in 0 to 1; it meets no ray if its area is zero.
+    /// The parallelogram `corner + u edge_u + v edge_v` for u and v from 0 to 1. No ray hits a quad without area.
     pub fn new(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Self {
         let cross = edge_u.cross(edge_v);
         let normal = cross.try_normalize().unwrap_or(DVec3::ZERO);
@@ -28,11 +28,11 @@ impl Quad {
         Self { corner, edge_u, edge_v, normal: if valid { normal } else { DVec3::ZERO }, dual_u, dual_v }
     }
 
-    /// The nearest hit as (t, u, v).
+    /// The hit as (t, u, v); `None` for a miss.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         let t = self.normal.dot(self.corner - ray.origin) / self.normal.dot(ray.direction);
-        // Written so that NaN, from a ray in the plane or an empty quad, is no hit.
+        // The comparisons are false for NaN, from a ray in the plane or a quad without area.
         if !(t > ray.t_min && t < ray.t_max) {
             return None;
         }
@@ -52,22 +52,22 @@ impl Quad {
         self.normal
     }
 
-    /// The edges, which are the derivatives of the position.
+    /// The edges along u and v, which are the derivatives of the position.
     pub fn edges(&self) -> (DVec3, DVec3) {
         (self.edge_u, self.edge_v)
     }
 
-    /// The vectors whose products with a point in the plane, relative to the corner, are its coordinates u and v.
+    /// The dual basis: its dot products with a point in the plane, relative to the corner, are u and v.
     pub(super) fn duals(&self) -> (DVec3, DVec3) {
         (self.dual_u, self.dual_v)
     }
 
-    /// In square scene units.
+    /// The area, in square scene units.
     pub fn area(&self) -> f64 {
         self.edge_u.cross(self.edge_v).length()
     }
 
-    /// How far it is from the point at (u, v) to the edges in a direction in the quad's plane, in units of the direction.
+    /// The distance from the point at (u, v) to the edges along a direction in the plane, in units of the direction.
     pub fn distance_to_edge(&self, uv: DVec2, direction: DVec3) -> f64 {
         let along = DVec2::new(direction.dot(self.dual_u), direction.dot(self.dual_v));
         let to_side = |x: f64, speed: f64| match speed {
@@ -78,8 +78,7 @@ impl Quad {
         to_side(uv.x, along.x).min(to_side(uv.y, along.y)).max(0.0)
     }
 
-    /// Whether all these points lie beyond one of the edges, or in the plane through it that is perpendicular to the
-    /// quad.
+    /// Whether all points lie beyond one of the edges, or in the plane through it that is perpendicular to the quad.
     pub fn is_beside(&self, points: &[DVec3]) -> bool {
         let beyond = |coordinate: fn(DVec2) -> f64| {
             points.iter().all(|point| {
@@ -95,7 +94,7 @@ impl Quad {
         [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| self.position(u, v))
     }
 
-    /// How far a point is from the quad.
+    /// The distance of a point to the quad.
     pub fn distance(&self, point: DVec3) -> f64 {
         let offset = point - self.corner;
         let (u, v) = (offset.dot(self.dual_u), offset.dot(self.dual_v));
@@ -111,7 +110,7 @@ impl Quad {
         edges.into_iter().map(|(start, along)| to_edge(start, along)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The smallest box around the four corners.
+    /// The box of the quad.
     pub fn bounds(&self) -> Aabb {
         Aabb::around([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(u, v)| self.position(u, v)))
     }

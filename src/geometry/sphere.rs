@@ -12,8 +12,8 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The nearest hit's t. The discriminant comes from the part of the origin across the ray, which stays exact for
-    /// far and for huge spheres \[Haines19\].
+    /// t of the nearest hit; `None` for a miss. The discriminant comes from the offset of the center across the ray, which
+    /// stays accurate for distant and for huge spheres \[Haines19\].
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
         let f = ray.origin - self.center;
@@ -32,7 +32,7 @@ impl Sphere {
         if counts(near) { Some(near) } else { counts(far).then_some(far) }
     }
 
-    /// How far a point is from the surface.
+    /// The distance of a point to the surface.
     pub fn distance(&self, p: DVec3) -> f64 {
         (p.distance(self.center) - self.radius).abs()
     }
@@ -47,7 +47,7 @@ impl Sphere {
         DVec2::new(0.5 + normal.x.atan2(normal.z) / TAU, 0.5 + normal.y.clamp(-1.0, 1.0).asin() / PI)
     }
 
-    /// Derivatives of the position with respect to (u, v) where the outward normal is `n`; dp/du is zero at a pole.
+    /// The derivatives of the position by u and by v where the outward normal is `n`. The derivative by u is zero at a pole.
     pub fn derivatives(&self, n: DVec3) -> (DVec3, DVec3) {
         let cos = (n.x * n.x + n.z * n.z).sqrt();
         let (sin_u, cos_u) = if cos > 0.0 { (n.x / cos, n.z / cos) } else { (0.0, 1.0) };
@@ -56,7 +56,7 @@ impl Sphere {
         (dpdu, dpdv)
     }
 
-    /// The smallest box around the sphere.
+    /// The box of the sphere.
     pub fn bounds(&self) -> Aabb {
         Aabb { min: self.center - self.radius, max: self.center + self.radius }
     }

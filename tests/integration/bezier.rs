@@ -102,7 +102,7 @@ fn every_clear_ray_has_its_answer() {
 }
 
 #[test]
-fn eight_rays_together_have_their_answers() {
+fn packets_of_eight_rays_have_their_answers() {
     let patches = prepared();
     let mut clear = 0;
     let lines: Vec<Vec<&str>> = RAYS.lines().skip(1).map(|line| line.split(',').collect()).collect();
@@ -113,7 +113,7 @@ fn eight_rays_together_have_their_answers() {
             Case::new(fields[1], &fields[2..], fields[8], [fields[9], fields[10], fields[11]])
         };
         let cases: [Case; LANES] = std::array::from_fn(case);
-        let hits = patch.intersect_together(&std::array::from_fn(|k| cases[k].ray), (1 << lines.len()) - 1);
+        let hits = patch.intersect_packet(&std::array::from_fn(|k| cases[k].ray), (1 << lines.len()) - 1);
         for (k, (case, hit)) in cases.iter().zip(hits).enumerate() {
             if k >= lines.len() {
                 assert!(hit.is_none(), "a ray that does not count");

@@ -1,32 +1,32 @@
-//! The `.bpt` format: the number of patches, then for each its degrees `3 3` and 16 points `x y z`, a row of four
-//! along v for each step along u. Numbers are separated by white space; how they fall on lines does not matter.
+//! The `.bpt` format: the number of patches, then for each patch its degrees `3 3` and 16 points `x y z`, in rows of four
+//! along v, one row per index along u. White space separates numbers; line breaks have no other meaning.
 
 use super::ControlNet;
 use glam::DVec3;
 use thiserror::Error;
 
-/// Why a text is not a `.bpt` file, and the line (from 1) where that shows.
+/// Why a text is not a valid `.bpt` file, with the line of the error.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("line {line}: {problem}")]
 pub struct BptError {
     /// Line number, from 1; for a text that ends too soon, its last line.
     pub line: usize,
-    /// What is wrong there.
+    /// The error.
     pub problem: BptProblem,
 }
 
-/// What can be wrong with a `.bpt` file.
+/// An error in a `.bpt` file.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BptProblem {
-    /// The text ends where something was due.
+    /// The text ends too early. Holds the missing item.
     #[error("the file ends where {0} was expected")]
     Short(String),
-    /// A word that is no number, or not a finite one.
+    /// A word that is not a finite number.
     #[error("expected {expected}, found `{found}`")]
     Unexpected {
-        /// What was due.
+        /// The expected item.
         expected: String,
-        /// The word found instead.
+        /// The word in its place.
         found: String,
     },
     /// Degrees other than 3 3.
@@ -39,16 +39,18 @@ pub enum BptProblem {
         /// Degree in v.
         v: usize,
     },
-    /// More numbers than the announced patches need.
-    #[error("`{0}` after the last patch; does the first line give the right number of patches?")]
+    /// Text after the last patch. Holds the first word of it.
+    #[error("found `{0}` after the last patch; is the number of patches in the first line right?")]
     Surplus(String),
 }
 
 /// The control nets of a `.bpt` text.
 ///
-/// Fails on anything but the announced number of bicubic patches with finite coordinates, naming the line.
+/// # Errors
+///
+/// For a text that does not hold as many bicubic patches with finite coordinates as its first number says.
 pub fn read_bpt(text: &str) -> Result<Vec<ControlNet>, BptError> {
-    // Some editors begin a file with a mark that cannot be seen.
+    // Some editors begin a file with a byte order mark.
     let mut words = Words::new(text.trim_start_matches('\u{feff}'));
     let count = words.integer("the number of patches")?;
     let nets = (1..=count).map(|patch| read_patch(&mut words, patch)).collect::<Result<_, _>>()?;
@@ -75,7 +77,7 @@ fn read_patch(words: &mut Words, patch: usize) -> Result<ControlNet, BptError> {
     Ok(ControlNet { points })
 }
 
-/// The `.bpt` text of some control nets: coordinates in the shortest form that reads back to the same bits.
+/// The `.bpt` text of control nets. Every coordinate is the shortest decimal that reads back as the same `f64`.
 pub fn write_bpt(nets: &[ControlNet]) -> String {
     let mut text = format!("{}\n", nets.len());
     for net in nets {
@@ -90,7 +92,7 @@ pub fn write_bpt(nets: &[ControlNet]) -> String {
 /// The words of a text, each with its line.
 struct Words<'a> {
     words: Box<dyn Iterator<Item = (usize, &'a str)> + 'a>,
-    /// Line of the last word handed out; at the end of the text, its last line.
+    /// The line of the last word; at the end of the text, its last line.
     line: usize,
     last_line: usize,
 }
@@ -162,6 +164,6 @@ mod tests {
         );
         let short = good.lines().take(10).collect::<Vec<_>>().join("\n");
         assert_eq!(message(&short), "line 10: the file ends where x of point 9 of patch 1 was expected");
-        assert!(message(&format!("{good}7")).starts_with("line 19: `7` after the last patch"));
+        assert!(message(&format!("{good}7")).starts_with("line 19: found `7` after the last patch"));
     }
 }

@@ -1,31 +1,31 @@
-//! Patches as a mesh of quads.
+//! Tessellation: patches as a mesh of quads.
 
 use super::{ControlNet, Patch};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
-/// A mesh of quads, and of triangles where an edge of a patch is a point. Corners that fall together are one vertex,
-/// within a patch and between patches, so that a closed body is closed here. For programs cut a mesh open where a vertex
-/// has several normals or (u, v), it has one of each, also on a crease or where the patches' parameters differ.
+/// A mesh of quads, and of triangles where an edge of a patch is a point. Coincident corners are one vertex, within a patch
+/// and between patches, so that closed surfaces give closed meshes. A vertex has one normal and one (u, v), also on creases
+/// and between patches with different parameters: other programs split a mesh where vertices have several.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadMesh {
-    /// Vertices.
+    /// The vertices, in scene units.
     pub positions: Vec<DVec3>,
-    /// For each vertex the unit vector along the mean of the normals `dS/du x dS/dv` of the patches that meet there.
+    /// For each vertex, the unit vector along the mean of the patches' normals.
     pub normals: Vec<DVec3>,
-    /// For each vertex the parameters (u, v) on the first patch that has it.
+    /// For each vertex, its (u, v) on the first patch that has it.
     pub parameters: Vec<DVec2>,
-    /// Faces by three or four vertices, counter-clockwise seen from where the normals point.
+    /// Faces as indices of three or four vertices, counter-clockwise when the normals point to the viewer.
     pub faces: Vec<Vec<usize>>,
 }
 
-/// Vertices closer than this, relative to the smallest patch, are one: far less than any detail.
+/// Vertices closer than this are welded; relative to the size of the smallest patch, and far smaller than any detail.
 const WELD_DISTANCE: f64 = 1e-7;
-/// The same relative to the largest coordinate: more than rounding.
+/// The least distance of welding, relative to the largest coordinate: above rounding.
 const ROUNDING: f64 = 1e-14;
 
 impl QuadMesh {
-    /// The mesh with `steps` quads along each side of each patch; `steps` of 0 counts as 1.
+    /// The mesh of these patches, with `steps` quads (at least 1) along each side of each patch.
     pub fn new(nets: &[ControlNet], steps: usize) -> Self {
         let steps = steps.max(1);
         let mut mesh = Self::default();
@@ -59,7 +59,7 @@ impl QuadMesh {
         }
     }
 
-    /// The text of a Wavefront OBJ file with one object: the vertices, then the faces.
+    /// The text of a Wavefront OBJ file with one object of this name.
     pub fn to_obj(&self, name: &str) -> String {
         let mut text = format!("o {name}\n");
         for p in &self.positions {
@@ -82,7 +82,7 @@ impl QuadMesh {
     }
 }
 
-/// The face without vertices that repeat; none if fewer than three are left.
+/// The face without repeated vertices; `None` if fewer than three are left.
 fn face(corners: [usize; 4]) -> Option<Vec<usize>> {
     let mut face: Vec<usize> = Vec::with_capacity(4);
     for vertex in corners {
@@ -93,7 +93,7 @@ fn face(corners: [usize; 4]) -> Option<Vec<usize>> {
     (face.len() >= 3).then_some(face)
 }
 
-/// Scene units.
+/// The distance below which vertices are welded, in scene units.
 fn weld_distance(nets: &[ControlNet]) -> f64 {
     let sizes = nets.iter().map(|net| net.bounds().diagonal()).filter(|size| *size > 0.0);
     let smallest = sizes.reduce(f64::min).unwrap_or(0.0);
@@ -102,18 +102,18 @@ fn weld_distance(nets: &[ControlNet]) -> f64 {
     (WELD_DISTANCE * smallest).max(ROUNDING * largest)
 }
 
-/// Finds vertices that are already there, by cells of a grid.
+/// Finds existing vertices in the cells of a grid.
 struct Weld {
-    /// Vertices that are at most this far from each other are one; the cells are twice as wide.
+    /// Vertices at most this far apart are one; the cells are twice as wide.
     distance: f64,
     cells: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl Weld {
-    /// The index of a vertex at p, perhaps a new one.
+    /// The index of the vertex at p, which is added if there is none.
     fn vertex(&mut self, p: DVec3, positions: &mut Vec<DVec3>) -> usize {
         let scale = if self.distance > 0.0 { 0.5 / self.distance } else { 0.0 };
-        // What lies within half a cell of p lies in one of the eight cells around the corner nearest to p.
+        // Points within half a cell of p lie in the eight cells around the cell corner nearest to p.
         let [x, y, z] = p.to_array().map(|x| (x * scale).round() as i64);
         for k in 0..8 {
             let near = self.cells.get(&[x - (k & 1), y - (k >> 1 & 1), z - (k >> 2)]);

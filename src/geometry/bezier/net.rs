@@ -3,11 +3,11 @@ use crate::math::Aabb;
 use glam::{DAffine3, DVec3};
 use std::array::from_fn;
 
-/// The 4 x 4 control points of a bicubic patch: `points[i][j]`, i along u, j along v,
-/// `S(u, v) = sum B_i(u) B_j(v) points[i][j]`.
+/// The 4 x 4 control points of a bicubic patch: `S(u, v) = sum B_i(u) B_j(v) points[i][j]` with the Bernstein polynomials
+/// `B_i` of degree 3, for u and v from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlNet {
-    /// Scene units.
+    /// `points[i][j]`, i along u, j along v, in scene units.
     pub points: [[DVec3; 4]; 4],
 }
 
@@ -29,13 +29,13 @@ pub struct Derivatives {
 }
 
 impl ControlNet {
-    /// The point `S(u, v)`. Exact at the corners; on an edge it depends on that edge's four points alone, so patches
-    /// that share an edge meet without a gap.
+    /// The point `S(u, v)`. It is exact at the corners; on an edge it depends on that edge's four control points alone, so that
+    /// patches that share an edge meet without a gap.
     pub fn eval(&self, u: f64, v: f64) -> DVec3 {
         Cubic(self.points.map(|row| Cubic(row).eval(v))).eval(u)
     }
 
-    /// The point with its derivatives, by de Casteljau's scheme in v, then in u.
+    /// The point with its derivatives, by de Casteljau's algorithm in v, then in u.
     pub fn derivatives(&self, u: f64, v: f64) -> Derivatives {
         let rows = self.points.map(|row| Cubic(row).derivatives(v));
         let along_u = |order: usize| Cubic(rows.map(|row| row[order])).derivatives(u);
@@ -45,22 +45,22 @@ impl ControlNet {
         Derivatives { position, dpdu, dpdv, d2pdu2, d2pdudv, d2pdv2 }
     }
 
-    /// The box of the control points. It holds the patch, which lies in their convex hull.
+    /// The box of the control points. It holds the patch, which lies in the convex hull of its control points.
     pub fn bounds(&self) -> Aabb {
         Aabb::around(self.points.into_iter().flatten())
     }
 
-    /// The net of the transformed patch: affine maps commute with evaluation.
+    /// The net of the patch under an affine map.
     pub fn transformed(&self, map: &DAffine3) -> Self {
         self.map(|p| map.transform_point3(p))
     }
 
-    /// The net with every control point mapped.
+    /// The net with `f` applied to every control point.
     pub fn map(&self, f: impl Fn(DVec3) -> DVec3) -> Self {
         Self { points: self.points.map(|row| row.map(&f)) }
     }
 
-    /// The same surface with the roles of u and v exchanged, which turns the normal around.
+    /// The surface with u and v exchanged, which flips the normal.
     pub fn transposed(&self) -> Self {
         Self { points: from_fn(|i| from_fn(|j| self.points[j][i])) }
     }
@@ -70,20 +70,20 @@ impl ControlNet {
         self.points.iter().flatten().all(|p| p.is_finite())
     }
 
-    /// The net of the part over `u.0 <= u <= u.1`, `v.0 <= v <= v.1`; the ends may lie outside of the unit interval.
+    /// The net of the subpatch over `u.0 <= u <= u.1`, `v.0 <= v <= v.1`; the ends may lie outside of 0 to 1.
     pub fn restricted(&self, u: (f64, f64), v: (f64, f64)) -> Self {
-        let rows = self.points.map(|row| Cubic(row).part(v).0);
-        let columns: [_; 4] = from_fn(|j| Cubic(from_fn(|i| rows[i][j])).part(u).0);
+        let rows = self.points.map(|row| Cubic(row).restricted(v).0);
+        let columns: [_; 4] = from_fn(|j| Cubic(from_fn(|i| rows[i][j])).restricted(u).0);
         Self { points: from_fn(|i| from_fn(|j| columns[j][i])) }
     }
 
-    /// The two halves `u <= 1/2` and `u >= 1/2`, each again over the unit square.
+    /// The subpatches over `u <= 1/2` and over `u >= 1/2`, each with parameters from 0 to 1.
     pub fn split_u(&self) -> [Self; 2] {
         let columns: [_; 4] = from_fn(|j| Cubic(from_fn(|i| self.points[i][j])).halves());
         [0, 1].map(|half| Self { points: from_fn(|i| from_fn(|j| columns[j][half].0[i])) })
     }
 
-    /// The two halves `v <= 1/2` and `v >= 1/2`, each again over the unit square.
+    /// The subpatches over `v <= 1/2` and over `v >= 1/2`, each with parameters from 0 to 1.
     pub fn split_v(&self) -> [Self; 2] {
         self.transposed().split_u().map(|half| half.transposed())
     }

@@ -1,20 +1,20 @@
-//! The unit normal of a patch everywhere, also where `dS/du x dS/dv` vanishes.
+//! The unit normal of a patch, also where `dS/du x dS/dv` vanishes: there its limit, by second derivatives.
 
 use super::{ControlNet, Derivatives};
 use glam::DVec3;
 
-/// How far to step, in (u, v), to borrow the normal of a neighbour.
+/// Distances in (u, v) of the neighbours whose normals stand in for one that has no limit.
 const NEIGHBOUR_STEPS: [f64; 4] = [1e-3, 1e-2, 0.1, 0.5];
 
-/// The unit vector along `dS/du x dS/dv`, or its limit for a point that comes from the middle of the patch, else along u or
-/// along v: at a collapsed edge, on two equal rows, at a cusp. Where even that vanishes, the normal of a neighbour; of a
-/// patch without area, any unit vector across its longest extent. Never NaN for a finite net.
+/// The unit vector along `dS/du x dS/dv`. Where that vanishes (a collapsed edge, equal rows, a cusp), its limit along the
+/// line to the center of the patch, else along u or v; without a limit, the normal of a neighbour; for a patch without area,
+/// a unit vector across its longest extent. Never NaN for a finite net.
 ///
 /// `net` should lie near the origin: coordinates far larger than the patch cost digits.
 pub(super) fn unit_normal(net: &ControlNet, u: f64, v: f64) -> DVec3 {
     let size = net.bounds().diagonal();
     let inward = |x: f64| if x < 0.5 { 0.5 } else { -0.5 };
-    // On the middle lines the way to the middle leads along the line, and at the middle nowhere.
+    // On a middle line the way to the center leads along the line; at the center there is none.
     let directions = [(0.5 - u, 0.5 - v), (inward(u), 0.0), (0.0, inward(v))];
     let here = net.derivatives(u, v);
     let limits = directions.iter().find_map(|&direction| limit_normal(&here, direction, size));
@@ -29,7 +29,7 @@ pub(super) fn unit_normal(net: &ControlNet, u: f64, v: f64) -> DVec3 {
     limits.or_else(neighbours).unwrap_or_else(|| normal_without_area(net))
 }
 
-/// The normal at a point by its derivatives, else its limit when coming from `point + direction`.
+/// The normal by the derivatives at a point, else its limit from `point + direction`; `None` if both vanish.
 fn limit_normal(d: &Derivatives, direction: (f64, f64), size: f64) -> Option<DVec3> {
     // Rounding leaves an error of some 1e-15 size in each derivative, hence of `1e-15 size (|Su| + |Sv|)` in the cross
     // product; a vector 1e5 times as long has a direction good to 1e-10.

@@ -1,41 +1,52 @@
 use super::ControlNet;
+use super::intersect::{Hit, PreparedPatch, has_hit, nearest_hit, nearest_hit_of_each};
 use super::normal::unit_normal;
-use super::power::PowerForm;
-use super::row_net::RowNet;
-use super::together::nearest_hits;
-use super::traverse::{Hit, has_hit, nearest_hit};
-use super::tree::PartTree;
 use super::unit::{UnitMap, UnitRay};
 use crate::math::lanes::{LANES, set_bits};
 use crate::math::{Aabb, Ray};
 use glam::DVec3;
 use std::sync::OnceLock;
 
-/// A patch to be met by rays. The first one that comes near makes it ready, so that one that is hidden costs nothing.
+/// A bicubic Bezier patch for ray intersection. The first ray that comes near prepares it (cuts it and builds its tree), so
+/// that a patch that no ray reaches costs nothing.
+///
+/// ```
+/// use glam::DVec3;
+/// use patchlight::geometry::bezier::{ControlNet, Patch};
+/// use patchlight::math::Ray;
+///
+/// // A hill over the unit square: the four inner control points are 1 high.
+/// let mut net = ControlNet { points: [[DVec3::ZERO; 4]; 4] };
+/// for i in 0..4 {
+///     for j in 0..4 {
+///         let height = if (1..3).contains(&i) && (1..3).contains(&j) { 1.0 } else { 0.0 };
+///         net.points[i][j] = DVec3::new(i as f64 / 3.0, j as f64 / 3.0, height);
+///     }
+/// }
+/// let patch = Patch::new(net);
+/// let ray = Ray::new(DVec3::new(0.5, 0.5, 3.0), DVec3::NEG_Z);
+/// let hit = patch.intersect(&ray).expect("a ray at the top of the hill");
+/// assert!((hit.u - 0.5).abs() < 1e-12 && (hit.v - 0.5).abs() < 1e-12);
+/// // The inner Bernstein weights are 3/8 each, in u and in v: the top is 0.75 * 0.75 high.
+/// assert!((hit.t - (3.0 - 0.5625)).abs() < 1e-12);
+/// assert!(patch.normal(hit.u, hit.v).distance(DVec3::Z) < 1e-12);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Patch {
     net: ControlNet,
     unit_map: UnitMap,
     unit_net: ControlNet,
-    prepared: OnceLock<Prepared>,
+    prepared: OnceLock<PreparedPatch>,
 }
 
-/// What rays in unit space need.
-#[derive(Clone, Debug)]
-pub(super) struct Prepared {
-    pub(super) net: RowNet,
-    pub(super) power: PowerForm,
-    pub(super) tree: PartTree,
-}
-
-/// Where a ray meets a patch.
+/// Where a ray hits a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchHit {
-    /// Of the ray's point nearest to `S(u, v)`, in units of the ray's direction.
+    /// The ray parameter of the hit, in units of the ray's direction.
     pub t: f64,
-    /// In `[0, 1]`.
+    /// From 0 to 1.
     pub u: f64,
-    /// In `[0, 1]`.
+    /// From 0 to 1.
     pub v: f64,
 }
 
@@ -47,67 +58,64 @@ impl From<Hit> for PatchHit {
 }
 
 impl Patch {
-    /// The patch of a net. Coordinates that are not finite give a patch that no ray meets.
+    /// The patch with this control net. No ray hits a patch with a coordinate that is not finite.
     pub fn new(net: ControlNet) -> Self {
-        // No ray meets an empty box.
         let bounds = if net.is_finite() { net.bounds() } else { Aabb::EMPTY };
         let unit_map = UnitMap::new(bounds.center(), bounds.diagonal());
         let unit_net = net.map(|p| unit_map.point(p));
         Self { net, unit_map, unit_net, prepared: OnceLock::new() }
     }
 
-    /// What rays need; the first call prepares it.
-    fn prepared(&self) -> &Prepared {
-        self.prepared.get_or_init(|| {
-            let rows = RowNet::new(&self.unit_net);
-            Prepared { net: rows, power: PowerForm::new(&self.unit_net), tree: PartTree::new(&rows) }
-        })
+    /// The patch as intersection reads it; the first call prepares it.
+    fn prepared(&self) -> &PreparedPatch {
+        self.prepared.get_or_init(|| PreparedPatch::new(&self.unit_net))
     }
 
-    /// Makes the patch ready now; else the first ray that comes near does.
+    /// Prepares the patch now instead of at the first ray.
     pub fn prepare(&self) {
         self.prepared();
     }
 
-    /// Whether anything made it ready.
+    /// Whether the patch is prepared.
     pub fn is_prepared(&self) -> bool {
         self.prepared.get().is_some()
     }
 
-    /// The control points.
+    /// The control net, in scene space.
     pub fn net(&self) -> &ControlNet {
         &self.net
     }
 
-    /// A box that holds the patch and every computed point of it.
+    /// A box that holds the patch and every computed point of it, in scene space.
     pub fn bounds(&self) -> Aabb {
         let bounds = self.net.bounds();
         // Evaluation rounds some ten times, each by at most half an ulp of the largest coordinate.
         bounds.inflated(1e-15 * bounds.min.abs().max(bounds.max.abs()).max_element())
     }
 
-    /// The nearest hit with `t_min < t < t_max`.
+    /// The nearest hit with `t_min < t < t_max`; `None` for a miss.
     pub fn intersect(&self, ray: &Ray) -> Option<PatchHit> {
         let ray = self.unit_map.ray(ray)?;
         Some(nearest_hit(self.prepared(), ray)?.into())
     }
 
-    /// The nearest hits of those rays whose bits are set in `counting`: the same as one by one, but quicker for rays that
-    /// go nearly the same way.
-    pub fn intersect_together(&self, rays: &[Ray; LANES], counting: u32) -> [Option<PatchHit>; LANES] {
-        let mut unit_rays = [UnitRay::NONE; LANES];
-        for k in set_bits(counting) {
-            unit_rays[k] = self.unit_map.ray(&rays[k]).unwrap_or(UnitRay::NONE);
+    /// The nearest hits of a packet's rays whose bits are set in `active`. The hits are those of [`Patch::intersect`] up to
+    /// rounding; for coherent rays this is faster.
+    pub fn intersect_packet(&self, rays: &[Ray; LANES], active: u32) -> [Option<PatchHit>; LANES] {
+        let mut unit_rays = [UnitRay::MISS; LANES];
+        for k in set_bits(active) {
+            unit_rays[k] = self.unit_map.ray(&rays[k]).unwrap_or(UnitRay::MISS);
         }
-        nearest_hits(self.prepared(), &unit_rays).map(|hit| hit.map(PatchHit::from))
+        nearest_hit_of_each(self.prepared(), &unit_rays).map(|hit| hit.map(PatchHit::from))
     }
 
-    /// Whether the ray meets the patch at any `t_min < t < t_max`.
+    /// Whether the ray hits the patch at any `t_min < t < t_max`.
     pub fn occluded(&self, ray: &Ray) -> bool {
         self.unit_map.ray(ray).is_some_and(|ray| has_hit(self.prepared(), ray))
     }
 
-    /// How far a point is from boxes that hold the patch closely, or `limit` if that is less.
+    /// The distance of a point to the boxes around the subpatches, or `limit` if that is less, in scene units: a lower bound
+    /// of its distance to the patch.
     pub fn distance(&self, point: DVec3, limit: f64) -> f64 {
         let far = self.bounds().distance(point);
         if far >= limit {
@@ -119,12 +127,13 @@ impl Patch {
         )
     }
 
-    /// The unit geometric normal `dS/du x dS/dv`; its limit on collapsed edges, equal rows and cusps. Never NaN.
+    /// The geometric unit normal, along `dS/du x dS/dv`; the limit of the normal on collapsed edges, equal rows and cusps.
+    /// Never NaN.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
         unit_normal(&self.unit_net, u, v)
     }
 
-    /// Memory of the patch with everything it owns so far.
+    /// Bytes of memory of the patch with everything that it owns so far.
     pub fn memory_bytes(&self) -> usize {
         size_of::<Self>() + self.prepared.get().map_or(0, |prepared| prepared.tree.heap_bytes())
     }
@@ -140,7 +149,7 @@ mod tests {
         ControlNet { points: from_fn(|i| from_fn(|j| f(i as f64 / 3.0, j as f64 / 3.0))) }
     }
 
-    /// Rays of all kinds at a patch: through points of it in many directions, along its edges, past it, from far away.
+    /// Rays of all kinds at a patch: through its points in many directions, along its edges, past it, from far away.
     fn rays(net: &ControlNet) -> Vec<Ray> {
         let size = net.bounds().diagonal().max(1e-3);
         let mut rays = Vec::new();

@@ -4,7 +4,7 @@ use super::{ControlNet, Derivatives};
 use crate::math::OrthonormalBasis;
 use glam::DVec3;
 
-/// How a surface bends at a point, with respect to its unit normal `dS/du x dS/dv`.
+/// The curvature of a surface at a point, with respect to the unit normal along `dS/du x dS/dv`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature {
     /// Derivative of the unit normal by u.
@@ -13,12 +13,12 @@ pub struct Curvature {
     pub dndv: DVec3,
     /// The mean of the two principal curvatures, per scene unit; positive where the surface bends towards its normal.
     pub mean: f64,
-    /// The product of the two principal curvatures.
+    /// The product of the two principal curvatures, per square scene unit.
     pub gaussian: f64,
 }
 
 impl Derivatives {
-    /// The curvature, by the equations of Weingarten; none where `dS/du x dS/dv` vanishes.
+    /// The curvature, by the Weingarten equations; `None` where `dS/du x dS/dv` vanishes.
     pub fn curvature(&self) -> Option<Curvature> {
         let normal = self.dpdu.cross(self.dpdv).try_normalize()?;
         // The first and the second fundamental form.
@@ -36,7 +36,7 @@ impl Derivatives {
         })
     }
 
-    /// The frame with this unit normal, usually the patch's own or a shading normal, and its tangent along `dS/du`.
+    /// The orthonormal basis of a unit normal (geometric or shading) with its tangent along `dS/du`.
     pub fn frame(&self, normal: DVec3) -> OrthonormalBasis {
         OrthonormalBasis::from_derivatives(normal, self.dpdu, self.dpdv)
     }

@@ -1,5 +1,5 @@
-//! Quads and spheres four at a time: where there are few, testing all of them takes less time than asking a tree which
-//! ones to test.
+//! Blocks of four quads or spheres in SIMD lanes. A ray tests all of a few blocks in less time than it takes to traverse a
+//! BVH.
 
 use super::quad::{EDGE_TOLERANCE, Quad};
 use super::{Hit, Primitive, Sphere};
@@ -8,45 +8,45 @@ use glam::DVec3;
 use pulp::{Simd, cast};
 use std::array::from_fn;
 
-/// Shapes in a packet, and numbers in a vector.
+/// Primitives in a block, which are the lanes of a vector.
 const WIDTH: usize = 4;
 
 type Column = [f64; WIDTH];
 
-/// Four vectors, coordinate by coordinate.
+/// Four vectors as a structure of arrays.
 type Columns = [Column; 3];
 
-/// The same in vector registers.
+/// Four vectors in SIMD registers.
 type Wide3<S> = [<S as Simd>::f64s; 3];
 
-/// Quads and spheres against which every ray is tested.
+/// The quads and spheres that every ray tests.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Packets {
-    quads: Vec<QuadPacket>,
-    spheres: Vec<SpherePacket>,
+pub(super) struct PrimitiveBlocks {
+    quads: Vec<Quad4>,
+    spheres: Vec<Sphere4>,
 }
 
-/// Four quads. Places that are left over hold quads without area, which meet no ray.
+/// Four quads. Unused lanes hold quads without area, which no ray hits.
 #[derive(Clone, Debug)]
-struct QuadPacket {
+struct Quad4 {
     corner: Columns,
     normal: Columns,
     dual_u: Columns,
     dual_v: Columns,
-    /// Their indices, as numbers that can be chosen between like the others.
+    /// The primitives' indices, as `f64` so that lanes select them like t, u and v.
     primitive: Column,
 }
 
-/// Four spheres. Places that are left over hold spheres whose squared radius is negative, which meet no ray.
+/// Four spheres. Unused lanes hold spheres with a negative squared radius, which no ray hits.
 #[derive(Clone, Debug)]
-struct SpherePacket {
+struct Sphere4 {
     center: Columns,
     radius_squared: Column,
-    /// Their indices, as numbers that can be chosen between like the others.
+    /// The primitives' indices, as `f64` so that lanes select them like t, u and v.
     primitive: Column,
 }
 
-/// A ray in every place of vectors.
+/// One ray in all lanes.
 struct WideRay<S: Simd> {
     origin: Wide3<S>,
     direction: Wide3<S>,
@@ -55,17 +55,17 @@ struct WideRay<S: Simd> {
     t_min: S::f64s,
 }
 
-/// In each place the nearest hit with one of the shapes that have that place in their packets.
+/// For each lane, the nearest hit on the primitives in that lane of the blocks.
 struct Nearest<S: Simd> {
-    /// The ray's `t_max` where there is none.
+    /// The ray's `t_max` where there is no hit.
     t: S::f64s,
     u: S::f64s,
     v: S::f64s,
     primitive: S::f64s,
 }
 
-impl Packets {
-    /// The quads and spheres among these primitives.
+impl PrimitiveBlocks {
+    /// Blocks of the quads and spheres among the primitives.
     pub(super) fn new<'a>(primitives: impl Iterator<Item = (u32, &'a Primitive)>) -> Self {
         let (mut quads, mut spheres) = (Vec::new(), Vec::new());
         for (index, primitive) in primitives {
@@ -76,33 +76,33 @@ impl Packets {
             }
         }
         Self {
-            quads: quads.chunks(WIDTH).map(QuadPacket::new).collect(),
-            spheres: spheres.chunks(WIDTH).map(SpherePacket::new).collect(),
+            quads: quads.chunks(WIDTH).map(Quad4::new).collect(),
+            spheres: spheres.chunks(WIDTH).map(Sphere4::new).collect(),
         }
     }
 
     /// Shortens the ray to its nearest hit, if there is one.
     #[inline(always)]
-    pub(super) fn meet<S: Simd>(&self, s: S, ray: &mut Ray, closest: &mut Option<Hit>) {
+    pub(super) fn intersect<S: Simd>(&self, s: S, ray: &mut Ray, closest: &mut Option<Hit>) {
         if self.quads.is_empty() && self.spheres.is_empty() {
             return;
         }
         let nearest = self.nearest(s, ray);
         let t: Column = cast(nearest.t);
-        // Without branches: no processor can tell beforehand which place is nearest.
+        // Without branches, which would be mispredicted: any lane may be the nearest.
         let first = usize::from(t[1] < t[0]);
         let second = 2 + usize::from(t[3] < t[2]);
-        let place = if t[second] < t[first] { second } else { first };
-        if t[place] < ray.t_max {
-            ray.t_max = t[place];
+        let lane = if t[second] < t[first] { second } else { first };
+        if t[lane] < ray.t_max {
+            ray.t_max = t[lane];
             let [u, v, primitive]: [Column; 3] = [cast(nearest.u), cast(nearest.v), cast(nearest.primitive)];
-            *closest = Some(Hit { t: t[place], primitive: primitive[place] as u32, u: u[place], v: v[place] });
+            *closest = Some(Hit { t: t[lane], primitive: primitive[lane] as u32, u: u[lane], v: v[lane] });
         }
     }
 
-    /// Whether anything is hit.
+    /// Whether the ray has any hit.
     #[inline(always)]
-    pub(super) fn occlude<S: Simd>(&self, s: S, ray: &Ray) -> bool {
+    pub(super) fn occluded<S: Simd>(&self, s: S, ray: &Ray) -> bool {
         s.reduce_min_f64s(self.nearest(s, ray).t) < ray.t_max
     }
 
@@ -111,11 +111,11 @@ impl Packets {
         let wide = WideRay::new(s, ray);
         let zero = s.splat_f64s(0.0);
         let mut nearest = Nearest { t: s.splat_f64s(ray.t_max), u: zero, v: zero, primitive: zero };
-        for packet in &self.quads {
-            packet.meet(s, &wide, &mut nearest);
+        for block in &self.quads {
+            block.intersect(s, &wide, &mut nearest);
         }
-        for packet in &self.spheres {
-            packet.meet(s, &wide, &mut nearest);
+        for block in &self.spheres {
+            block.intersect(s, &wide, &mut nearest);
         }
         nearest
     }
@@ -136,8 +136,9 @@ impl<S: Simd> WideRay<S> {
 }
 
 impl<S: Simd> Nearest<S> {
+    /// Replaces the nearest hit in the lanes of the mask `hit`.
     #[inline(always)]
-    fn take(&mut self, s: S, hit: S::m64s, [t, u, v]: Wide3<S>, primitive: &Column) {
+    fn replace(&mut self, s: S, hit: S::m64s, [t, u, v]: Wide3<S>, primitive: &Column) {
         self.t = s.select_f64s(hit, t, self.t);
         self.u = s.select_f64s(hit, u, self.u);
         self.v = s.select_f64s(hit, v, self.v);
@@ -145,7 +146,7 @@ impl<S: Simd> Nearest<S> {
     }
 }
 
-impl QuadPacket {
+impl Quad4 {
     fn new(quads: &[(u32, Quad)]) -> Self {
         let empty = (0, Quad::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO));
         let quads: [_; WIDTH] = from_fn(|k| quads.get(k).copied().unwrap_or(empty));
@@ -159,9 +160,9 @@ impl QuadPacket {
         }
     }
 
-    /// As [`Quad::intersect`].
+    /// Tests a ray as [`Quad::intersect`] does.
     #[inline(always)]
-    fn meet<S: Simd>(&self, s: S, ray: &WideRay<S>, nearest: &mut Nearest<S>) {
+    fn intersect<S: Simd>(&self, s: S, ray: &WideRay<S>, nearest: &mut Nearest<S>) {
         let normal = load(s, &self.normal);
         let from = sub(s, ray.origin, load(s, &self.corner));
         let t = s.neg_f64s(s.div_f64s(dot(s, normal, from), dot(s, normal, ray.direction)));
@@ -169,11 +170,11 @@ impl QuadPacket {
         let (u, v) = (dot(s, p, load(s, &self.dual_u)), dot(s, p, load(s, &self.dual_v)));
         let in_time = s.and_m64s(s.less_than_f64s(ray.t_min, t), s.less_than_f64s(t, nearest.t));
         let inside = s.and_m64s(in_range_0_to_1(s, u), in_range_0_to_1(s, v));
-        nearest.take(s, s.and_m64s(in_time, inside), [t, u, v], &self.primitive);
+        nearest.replace(s, s.and_m64s(in_time, inside), [t, u, v], &self.primitive);
     }
 }
 
-impl SpherePacket {
+impl Sphere4 {
     fn new(spheres: &[(u32, Sphere)]) -> Self {
         let get = |k: usize| spheres.get(k).copied();
         Self {
@@ -183,9 +184,9 @@ impl SpherePacket {
         }
     }
 
-    /// As [`Sphere::intersect`].
+    /// Tests a ray as [`Sphere::intersect`] does.
     #[inline(always)]
-    fn meet<S: Simd>(&self, s: S, ray: &WideRay<S>, nearest: &mut Nearest<S>) {
+    fn intersect<S: Simd>(&self, s: S, ray: &WideRay<S>, nearest: &mut Nearest<S>) {
         let radius_squared = cast(self.radius_squared);
         let from = sub(s, ray.origin, load(s, &self.center));
         let b = s.neg_f64s(dot(s, from, ray.direction));
@@ -195,7 +196,7 @@ impl SpherePacket {
         if s.reduce_max_f64s(discriminant) < 0.0 {
             return;
         }
-        // The square root of what is negative is not a number, and then nothing that follows is one.
+        // A lane that misses has a negative discriminant, whose root is NaN; all its comparisons are then false.
         let root = s.sqrt_f64s(s.mul_f64s(ray.length_squared, discriminant));
         let q = s.add_f64s(b, s.select_f64s(s.less_than_f64s(b, zero), s.neg_f64s(root), root));
         let t0 = s.div_f64s(s.sub_f64s(dot(s, from, from), radius_squared), q);
@@ -204,11 +205,11 @@ impl SpherePacket {
         let (near, far) = (s.select_f64s(in_order, t0, t1), s.select_f64s(in_order, t1, t0));
         let t = s.select_f64s(s.less_than_f64s(ray.t_min, near), near, far);
         let hit = s.and_m64s(s.less_than_f64s(ray.t_min, t), s.less_than_f64s(t, nearest.t));
-        nearest.take(s, hit, [t, zero, zero], &self.primitive);
+        nearest.replace(s, hit, [t, zero, zero], &self.primitive);
     }
 }
 
-/// Where a coordinate is from 0 to 1, and a little beyond.
+/// The lanes whose coordinate is from 0 to 1, up to the tolerance.
 #[inline(always)]
 fn in_range_0_to_1<S: Simd>(s: S, x: S::f64s) -> S::m64s {
     let (low, high) = (s.splat_f64s(-EDGE_TOLERANCE), s.splat_f64s(1.0 + EDGE_TOLERANCE));
@@ -235,7 +236,7 @@ fn sub<S: Simd>(s: S, a: Wide3<S>, b: Wide3<S>) -> Wide3<S> {
     [s.sub_f64s(a[0], b[0]), s.sub_f64s(a[1], b[1]), s.sub_f64s(a[2], b[2])]
 }
 
-/// `f a + b`.
+/// `f a + b`, with a scalar f in each lane.
 #[inline(always)]
 fn mul_add<S: Simd>(s: S, f: S::f64s, a: Wide3<S>, b: Wide3<S>) -> Wide3<S> {
     [s.mul_add_e_f64s(f, a[0], b[0]), s.mul_add_e_f64s(f, a[1], b[1]), s.mul_add_e_f64s(f, a[2], b[2])]

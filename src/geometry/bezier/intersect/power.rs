@@ -1,36 +1,35 @@
-use super::ControlNet;
-use super::newton::Slack;
-use super::row::Row;
+use crate::geometry::bezier::ControlNet;
+use crate::geometry::bezier::unit::{Row, Slack};
 use crate::math::lanes::Lanes;
 use glam::DVec3;
 use std::array::from_fn;
 
-/// A patch as a polynomial in `x = 2 u - 1`, `y = 2 v - 1`: the quickest form to evaluate. On `[-1, 1]` it loses no
-/// digits against the Bernstein form: its coefficients are at most 2.25 times the largest control point.
+/// A patch in power form: the polynomial in `x = 2 u - 1`, `y = 2 v - 1`, which is the fastest form to evaluate. Centered on
+/// the domain it is as accurate as the Bernstein form: its coefficients are at most 2.25 times the largest control point.
 #[derive(Clone, Debug)]
-pub(super) struct PowerForm {
-    /// `coefficients[i][j]`, three coordinates and a zero, belongs to `x^i y^j`.
+pub(crate) struct PowerForm {
+    /// `coefficients[i][j]` of `x^i y^j`: three coordinates and a zero.
     coefficients: [[Row; 4]; 4],
-    /// The same in single precision, `[axis][i][j]`.
+    /// The coefficients in single precision, `[axis][i][j]`.
     single: [[[f32; 4]; 4]; 3],
-    /// How far outside of a part a root still counts.
-    pub(super) slack: Slack,
+    /// How far outside of a subpatch's domain a root still is a hit.
+    pub(crate) slack: Slack,
 }
 
-/// A coordinate of eight points with its derivatives by x and by y.
+/// One coordinate of eight points of a patch, with its derivatives by x and by y.
 #[derive(Clone, Copy)]
-pub(super) struct Slopes<L: Lanes> {
-    pub(super) position: L::Vector,
-    pub(super) dx: L::Vector,
-    pub(super) dy: L::Vector,
+pub(crate) struct LaneTangents<L: Lanes> {
+    pub(crate) position: L::Vector,
+    pub(crate) dx: L::Vector,
+    pub(crate) dy: L::Vector,
 }
 
-/// The point at some x, y with the derivatives by x and by y.
+/// A point of a patch with the derivatives by x and by y, in unit space.
 #[derive(Clone, Copy)]
-pub(super) struct Tangents {
-    pub(super) position: DVec3,
-    pub(super) dx: DVec3,
-    pub(super) dy: DVec3,
+pub(crate) struct Tangents {
+    pub(crate) position: DVec3,
+    pub(crate) dx: DVec3,
+    pub(crate) dy: DVec3,
 }
 
 impl From<Row> for DVec3 {
@@ -49,9 +48,9 @@ fn horner(l: impl Lanes, c: &[Row; 4], t: f64) -> (Row, Row) {
     (b1.mul_add(l, t, c[0]), slope)
 }
 
-/// A cubic and its derivative at eight places t.
+/// A cubic and its derivative at eight parameters t.
 #[inline(always)]
-fn cubic_of<L: Lanes>(l: L, c: &[f32; 4], t: L::Vector) -> (L::Vector, L::Vector) {
+fn horner_lanes<L: Lanes>(l: L, c: &[f32; 4], t: L::Vector) -> (L::Vector, L::Vector) {
     let c3 = l.splat(c[3]);
     let b2 = l.mul_add(c3, t, l.splat(c[2]));
     let b1 = l.mul_add(b2, t, l.splat(c[1]));
@@ -59,7 +58,8 @@ fn cubic_of<L: Lanes>(l: L, c: &[f32; 4], t: L::Vector) -> (L::Vector, L::Vector
 }
 
 impl PowerForm {
-    pub(super) fn new(net: &ControlNet) -> Self {
+    /// The power form of a net in unit space.
+    pub(crate) fn new(net: &ControlNet) -> Self {
         let along_v = net.points.map(power_from_bernstein);
         let along_u: [[DVec3; 4]; 4] = from_fn(|j| power_from_bernstein(from_fn(|i| along_v[i][j])));
         Self {
@@ -69,14 +69,15 @@ impl PowerForm {
         }
     }
 
-    /// Evaluates one coordinate at eight places, in single precision.
+    /// Evaluates one coordinate at eight (x, y), in single precision.
     #[inline(always)]
-    pub(super) fn slopes<L: Lanes>(&self, l: L, axis: usize, x: L::Vector, y: L::Vector) -> Slopes<L> {
+    pub(crate) fn lane_tangents<L: Lanes>(&self, l: L, axis: usize, x: L::Vector, y: L::Vector) -> LaneTangents<L> {
         let [r0, r1, r2, r3] = &self.single[axis];
-        let (r0, r1, r2, r3) = (cubic_of(l, r0, y), cubic_of(l, r1, y), cubic_of(l, r2, y), cubic_of(l, r3, y));
+        let (r0, r1, r2, r3) =
+            (horner_lanes(l, r0, y), horner_lanes(l, r1, y), horner_lanes(l, r2, y), horner_lanes(l, r3, y));
         let b2 = l.mul_add(r3.0, x, r2.0);
         let b1 = l.mul_add(b2, x, r1.0);
-        Slopes {
+        LaneTangents {
             position: l.mul_add(b1, x, r0.0),
             dx: l.mul_add(l.mul_add(r3.0, x, b2), x, b1),
             dy: l.mul_add(l.mul_add(l.mul_add(r3.1, x, r2.1), x, r1.1), x, r0.1),
@@ -85,7 +86,7 @@ impl PowerForm {
 
     /// Evaluates at (x, y).
     #[inline(always)]
-    pub(super) fn tangents(&self, l: impl Lanes, x: f64, y: f64) -> Tangents {
+    pub(crate) fn tangents(&self, l: impl Lanes, x: f64, y: f64) -> Tangents {
         let [r0, r1, r2, r3] = &self.coefficients;
         let (r0, r1, r2, r3) = (horner(l, r0, y), horner(l, r1, y), horner(l, r2, y), horner(l, r3, y));
         let (position, dx) = horner(l, &[r0.0, r1.0, r2.0, r3.0], x);

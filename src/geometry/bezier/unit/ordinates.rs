@@ -1,27 +1,27 @@
-//! The numbers of a control net, four side by side.
+//! One coordinate of a control net, its Bezier ordinates, in vectors of four \[Farin02\].
 
 use crate::math::lanes::Lanes;
 use std::ops::{Add, Mul, Sub};
 use wide::f64x4;
 
-/// Four numbers.
+/// Four numbers: the ordinates of one row of a control net, or a vector of four coordinates.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-pub(super) struct Row(pub(super) [f64; 4]);
+pub(crate) struct Row(pub(crate) [f64; 4]);
 
-/// Four rows: one coordinate of the control points, `[i][j]` with i along u and j along v.
+/// The Bezier ordinates of a bicubic polynomial, which is one coordinate of a patch: `[i][j]`, i along u, j along v.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rows(pub(super) [Row; 4]);
+pub(crate) struct Ordinates(pub(crate) [Row; 4]);
 
-/// The least and the greatest of some numbers.
+/// A closed interval.
 #[derive(Clone, Copy)]
-pub(super) struct Range {
-    pub(super) low: f64,
-    pub(super) high: f64,
+pub(crate) struct Interval {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
 }
 
 impl Row {
-    pub(super) const ZERO: Self = Self([0.0; 4]);
+    pub(crate) const ZERO: Self = Self([0.0; 4]);
 
     #[inline(always)]
     fn zip(self, b: Self, f: impl Fn(f64x4, f64x4) -> f64x4) -> Self {
@@ -30,7 +30,7 @@ impl Row {
 
     /// `self * s + c`.
     #[inline(always)]
-    pub(super) fn mul_add(self, l: impl Lanes, s: f64, c: Self) -> Self {
+    pub(crate) fn mul_add(self, l: impl Lanes, s: f64, c: Self) -> Self {
         let [a, b] = [self.0, c.0];
         Self([
             l.mul_add_f64(a[0], s, b[0]),
@@ -42,17 +42,17 @@ impl Row {
 
     /// The same number four times.
     #[inline(always)]
-    pub(super) fn splat(x: f64) -> Self {
+    pub(crate) fn splat(x: f64) -> Self {
         Self([x; 4])
     }
 
-    /// The lesser ones; no care is taken of what is not a number, which would cost as much again.
+    /// The minimum of each pair. The result is unspecified where a number is NaN: a check would double the cost.
     #[inline(always)]
     fn min(self, b: Self) -> Self {
         self.zip(b, f64x4::fast_min)
     }
 
-    /// The greater ones, in the same way.
+    /// The maximum of each pair, unspecified where a number is NaN.
     #[inline(always)]
     fn max(self, b: Self) -> Self {
         self.zip(b, f64x4::fast_max)
@@ -91,20 +91,20 @@ impl Mul<f64> for Row {
     }
 }
 
-impl Rows {
-    pub(super) const ZERO: Self = Self([Row::ZERO; 4]);
+impl Ordinates {
+    pub(crate) const ZERO: Self = Self([Row::ZERO; 4]);
 
-    /// All numbers less one.
+    /// All ordinates minus `offset`.
     #[inline(always)]
-    pub(super) fn less(&self, offset: f64) -> Self {
+    pub(crate) fn minus(&self, offset: f64) -> Self {
         let offset = Row::splat(offset);
         let [a, b, c, d] = self.0;
         Self([a - offset, b - offset, c - offset, d - offset])
     }
 
-    /// Columns for rows.
+    /// The polynomial with u and v exchanged.
     #[inline(always)]
-    pub(super) fn transposed(&self) -> Self {
+    pub(crate) fn transposed(&self) -> Self {
         let [Row(a), Row(b), Row(c), Row(d)] = self.0;
         Self([
             Row([a[0], b[0], c[0], d[0]]),
@@ -114,43 +114,43 @@ impl Rows {
         ])
     }
 
-    /// The differences of neighbours along u.
+    /// The differences of neighbours along u: the derivative by u has 3 times these ordinates.
     #[inline(always)]
-    pub(super) fn steps(&self) -> [Row; 3] {
+    pub(crate) fn differences(&self) -> [Row; 3] {
         let [a, b, c, d] = self.0;
         [b - a, c - b, d - c]
     }
 
     /// The second differences along u.
     #[inline(always)]
-    pub(super) fn bends(&self) -> [Row; 2] {
-        let [a, b, c] = self.steps();
+    pub(crate) fn second_differences(&self) -> [Row; 2] {
+        let [a, b, c] = self.differences();
         [b - a, c - b]
     }
 
-    /// The differences along v of the differences along u.
+    /// The mixed differences, along u and v.
     #[inline(always)]
-    pub(super) fn twists(&self) -> [Row; 3] {
-        let [a, b, c] = self.steps();
-        Self([a, b, c, c]).transposed().steps()
+    pub(crate) fn mixed_differences(&self) -> [Row; 3] {
+        let [a, b, c] = self.differences();
+        Self([a, b, c, c]).transposed().differences()
     }
 
-    /// The mean of the four corners.
+    /// The mean of the four corner ordinates.
     #[inline(always)]
-    pub(super) fn middle(&self) -> f64 {
+    pub(crate) fn corner_mean(&self) -> f64 {
         let [Row([a, .., b]), _, _, Row([c, .., d])] = self.0;
         0.25 * ((a + d) + (b + c))
     }
 
-    /// The least and the greatest number.
+    /// The interval of the ordinates. It holds all values of the polynomial over the unit square (convex hull property).
     #[inline(always)]
-    pub(super) fn range(&self) -> Range {
-        Range::of(&self.0)
+    pub(crate) fn range(&self) -> Interval {
+        Interval::of(&self.0)
     }
 
-    /// De Casteljau's scheme at 1/2 along u.
+    /// The polynomial over `u <= 1/2` and over `u >= 1/2`, by de Casteljau's algorithm.
     #[inline(always)]
-    pub(super) fn halves(&self) -> [Self; 2] {
+    pub(crate) fn halves(&self) -> [Self; 2] {
         let half = Row::splat(0.5);
         let [p, q, r, s] = self.0;
         let (a, b, c) = ((p + q) * half, (q + r) * half, (r + s) * half);
@@ -159,10 +159,10 @@ impl Rows {
         [Self([p, a, d, middle]), Self([middle, e, c, s])]
     }
 
-    /// The part from `low` to `high` along u: each control point of the part is the blossom of the curve at three values,
-    /// each of them `low` or `high`.
+    /// The polynomial over `low <= u <= high`. Each new ordinate is the blossom of the curve at three arguments, `low` or
+    /// `high` \[Ramshaw89\].
     #[inline(always)]
-    pub(super) fn part(&self, low: f64, high: f64) -> Self {
+    pub(crate) fn restricted(&self, low: f64, high: f64) -> Self {
         let (a, b, c) = self.mixes(low);
         let (d, e, f) = self.mixes(high);
         let (ab, bc, de, ef) = (mix(a, b, low), mix(b, c, low), mix(d, e, high), mix(e, f, high));
@@ -181,10 +181,10 @@ fn mix(a: Row, b: Row, t: f64) -> Row {
     a * (1.0 - t) + b * t
 }
 
-impl Range {
-    /// Of all numbers in these rows.
+impl Interval {
+    /// The smallest interval that holds all numbers of `rows`.
     #[inline(always)]
-    pub(super) fn of<const N: usize>(rows: &[Row; N]) -> Self {
+    pub(crate) fn of<const N: usize>(rows: &[Row; N]) -> Self {
         let (mut low, mut high) = (rows[0], rows[0]);
         for row in &rows[1..] {
             low = row.min(low);
@@ -196,33 +196,33 @@ impl Range {
         Self { low: min(min(a, b), min(c, d)), high: max(max(e, f), max(g, h)) }
     }
 
-    /// All numbers times a positive one.
+    /// The interval times a positive factor.
     #[inline(always)]
-    pub(super) fn scaled(self, factor: f64) -> Self {
+    pub(crate) fn scaled(self, factor: f64) -> Self {
         Self { low: factor * self.low, high: factor * self.high }
     }
 
-    /// All numbers less one.
+    /// The interval shifted by `-offset`.
     #[inline(always)]
-    pub(super) fn less(self, offset: f64) -> Self {
+    pub(crate) fn minus(self, offset: f64) -> Self {
         Self { low: self.low - offset, high: self.high - offset }
     }
 
-    /// The greatest absolute value.
+    /// The greatest absolute value in the interval.
     #[inline(always)]
-    pub(super) fn greatest(self) -> f64 {
+    pub(crate) fn magnitude(self) -> f64 {
         self.high.abs().max(self.low.abs())
     }
 
-    /// From the least to the greatest.
+    /// `high - low`.
     #[inline(always)]
-    pub(super) fn width(self) -> f64 {
+    pub(crate) fn width(self) -> f64 {
         self.high - self.low
     }
 
-    /// Whether all numbers are on one side of zero, by more than this.
+    /// Whether the interval lies on one side of zero, farther from it than `slack`.
     #[inline(always)]
-    pub(super) fn excludes_zero(self, slack: f64) -> bool {
+    pub(crate) fn excludes_zero(self, slack: f64) -> bool {
         self.low > slack || self.high < -slack
     }
 }
