@@ -2,38 +2,37 @@ use crate::math::Ray;
 use crate::scene;
 use glam::{DVec2, DVec3};
 
-/// A pinhole camera and the grid of its film. Film coordinates are pixels, (0, 0) the top-left corner.
+/// A pinhole camera with the pixel grid of its film. Film coordinates are in pixels; (0, 0) is the top-left corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// The pinhole.
+    /// The pinhole, in scene units.
     pub position: DVec3,
-    /// Pixels.
+    /// Pixels per row.
     pub width: u32,
-    /// Pixels.
+    /// Rows of pixels.
     pub height: u32,
     right: DVec3,
     up: DVec3,
     forward: DVec3,
-    /// Side of a pixel on the plane at distance 1.
+    /// The side of a pixel on the image plane at distance 1.
     pixel_side: f64,
 }
 
-/// Where a point appears on the film.
+/// The projection of a point onto the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projected {
     /// Index of the pixel, row by row from the top.
     pub pixel: u32,
     /// Unit vector from the point to the pinhole.
     pub to_camera: DVec3,
-    /// Distance to the pinhole.
+    /// Distance to the pinhole, in scene units.
     pub distance: f64,
-    /// Pixels a steradian there: the reciprocal of the solid angle of a pixel.
+    /// Pixels per steradian there: 1 over the solid angle of the pixel.
     pub pixels_per_steradian: f64,
 }
 
 impl Camera {
-    /// The camera of a scene for a film of this size. Directions that a scene leaves undefined (up along the view)
-    /// are chosen.
+    /// The camera of a scene for a film of this size (at least 1 x 1). If `up` is parallel to the view, it picks an up vector.
     pub fn new(camera: &scene::Camera, width: u32, height: u32) -> Self {
         let forward = (camera.target - camera.position).normalize_or(DVec3::NEG_Z);
         let right = forward.cross(camera.up);
@@ -43,7 +42,7 @@ impl Camera {
         Self { position: camera.position, width, height, right, up: right.cross(forward), forward, pixel_side }
     }
 
-    /// The same view on a grid of other pixels.
+    /// The camera with the same view and another number of pixels (at least 1 x 1).
     pub fn resized(&self, width: u32, height: u32) -> Self {
         let (width, height) = (width.max(1), height.max(1));
         Self { width, height, pixel_side: self.pixel_side * f64::from(self.height) / f64::from(height), ..*self }
@@ -54,14 +53,14 @@ impl Camera {
         self.width as usize * self.height as usize
     }
 
-    /// The ray through a film position, direction of unit length.
+    /// The ray through a film position; its direction has unit length.
     pub fn ray(&self, film: DVec2) -> Ray {
         let x = (film.x - 0.5 * f64::from(self.width)) * self.pixel_side;
         let y = (0.5 * f64::from(self.height) - film.y) * self.pixel_side;
         Ray::new(self.position, (self.forward + x * self.right + y * self.up).normalize())
     }
 
-    /// Where a point appears; `None` behind the camera and outside the film.
+    /// The projection of a point; `None` for points behind the camera or outside of the film.
     pub fn project(&self, point: DVec3) -> Option<Projected> {
         let offset = point - self.position;
         let depth = offset.dot(self.forward);
@@ -85,12 +84,12 @@ impl Camera {
         })
     }
 
-    /// The side of a pixel's footprint, across the ray, at this length of path.
+    /// The side of a pixel's footprint across the ray, at this distance along the path, in scene units.
     pub fn footprint(&self, distance: f64) -> f64 {
         self.pixel_side * distance
     }
 
-    /// Whether any part of a ball may appear on the film: never wrong when it says no.
+    /// Whether a part of a ball may be visible on the film. Conservative: `false` only if no part is.
     pub fn may_see(&self, center: DVec3, radius: f64) -> bool {
         let offset = center - self.position;
         let (x, y, z) = (offset.dot(self.right), offset.dot(self.up), offset.dot(self.forward));

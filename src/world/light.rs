@@ -6,31 +6,31 @@ use std::f64::consts::PI;
 /// A source of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light {
-    /// An invisible point with the same intensity (W/sr) everywhere.
+    /// An invisible point with the same intensity in all directions.
     Point {
-        /// Where it is.
+        /// Its position, in scene units.
         position: DVec3,
-        /// W/sr.
+        /// Radiant intensity, W/sr.
         intensity: Rgb,
     },
-    /// A Lambertian sphere that shines outwards.
+    /// A sphere that emits outwards, with the same radiance in all directions.
     Sphere {
         /// Its surface.
         sphere: Sphere,
-        /// W/(sr m^2).
+        /// Radiance, W/(sr m^2).
         radiance: Rgb,
     },
-    /// A Lambertian parallelogram that shines to the side of its normal.
+    /// A parallelogram that emits to the side of its normal, with the same radiance in all directions.
     Quad {
         /// Its surface.
         quad: Quad,
-        /// W/(sr m^2).
+        /// Radiance, W/(sr m^2).
         radiance: Rgb,
     },
 }
 
 impl Light {
-    /// All that it emits, W.
+    /// The total emitted power, W.
     pub fn power(&self) -> Rgb {
         match self {
             Self::Point { intensity, .. } => *intensity * (4.0 * PI) as f32,
@@ -39,7 +39,7 @@ impl Light {
         }
     }
 
-    /// Its middle.
+    /// The center of the light.
     pub fn center(&self) -> DVec3 {
         match self {
             Self::Point { position, .. } => *position,
@@ -48,7 +48,7 @@ impl Light {
         }
     }
 
-    /// Radius of a ball about the middle that holds all of it.
+    /// The radius of a ball around the center that holds the light, in scene units.
     pub fn reach(&self) -> f64 {
         match self {
             Self::Point { .. } => 0.0,
@@ -57,7 +57,7 @@ impl Light {
         }
     }
 
-    /// Radiance towards `direction` from the surface of an area light with this outward or front normal.
+    /// The radiance towards `direction` from a point of an area light with this outward or front normal.
     pub fn emitted(&self, n_geom: DVec3, direction: DVec3) -> Rgb {
         match self {
             Self::Sphere { radiance, .. } | Self::Quad { radiance, .. } if n_geom.dot(direction) > 0.0 => *radiance,

@@ -4,14 +4,14 @@ use crate::math::{OrthonormalBasis, Rgb};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// A value that may vary over the surface.
+/// A value that is constant or varies over the surface.
 #[derive(Clone, Debug)]
 pub(super) enum Source {
     Constant(Rgb),
     Image { image: Arc<Image>, scale: DVec2 },
 }
 
-/// Bumps that tilt the normal.
+/// A map that tilts the shading normal.
 #[derive(Clone, Debug)]
 pub(super) enum Relief {
     Normal { image: Arc<Image>, scale: DVec2, strength: f64 },
@@ -32,43 +32,43 @@ pub(super) enum Model {
 pub struct Material {
     model: Model,
     relief: Option<Relief>,
-    /// Of one scattering and normal.
+    /// Texture lookups for one scattering and normal.
     lookups: u32,
-    /// What is the same everywhere, where nothing is looked up: most points ask for nothing else.
+    /// The scattering of a material without textures, computed once: most points need no more.
     uniform: Option<Scattering>,
 }
 
-/// How one point scatters light: a diffuse part and at most one other.
+/// The scattering at a point: a diffuse lobe and at most one other lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scattering {
-    /// Part reflected by Lambert's law.
+    /// The albedo of the diffuse (Lambertian) lobe.
     pub albedo: Rgb,
-    /// The rest.
+    /// The other lobe.
     pub lobe: Lobe,
 }
 
-/// What a surface does besides diffuse reflection.
+/// A lobe besides diffuse reflection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lobe {
-    /// Nothing.
+    /// No other lobe.
     None,
-    /// A Phong lobe about the mirror direction.
+    /// A Phong lobe around the mirror direction.
     Phong {
-        /// Part of the light that it reflects at most.
+        /// The greatest albedo of the lobe.
         specular: Rgb,
-        /// Its sharpness.
+        /// The Phong exponent.
         exponent: f64,
     },
     /// A perfect mirror.
     Mirror {
-        /// Part of the light that it reflects.
+        /// The reflectance.
         reflectance: Rgb,
     },
     /// A smooth dielectric interface.
     Glass {
         /// Index of refraction of the inside.
         ior: f64,
-        /// Of what is transmitted.
+        /// The factor of transmitted light.
         tint: Rgb,
     },
 }
@@ -85,7 +85,7 @@ impl Source {
         matches!(self, Self::Image { .. })
     }
 
-    /// An upper bound over the surface; textures count as white.
+    /// An upper bound over the surface and the channels, 1 for textures.
     fn bound(&self) -> f32 {
         match self {
             Self::Constant(value) => value.max_element(),
@@ -115,7 +115,7 @@ impl Material {
         material
     }
 
-    /// The scattering where it depends on nothing; `None` where the point matters.
+    /// The scattering of a material without textures; `None` for a material with textures.
     #[inline]
     pub fn uniform(&self) -> Option<Scattering> {
         self.uniform
@@ -137,7 +137,7 @@ impl Material {
         Scattering { albedo: within_energy(albedo, lobe), lobe }
     }
 
-    /// The unit shading normal on the front side, for a geometric unit normal and the parameters there.
+    /// The unit shading normal on the front side, at a point with this geometric unit normal and these tangents.
     pub fn shading_normal(&self, n_geom: DVec3, tangents: &Tangents) -> DVec3 {
         let tilted = match &self.relief {
             None => return n_geom,
@@ -148,13 +148,13 @@ impl Material {
             }
             Some(Relief::Height { image, scale, depth }) => {
                 let slope = image.gradient(tangents.uv * *scale) * *scale * *depth;
-                // Blinn's bump mapping: the normal of S + h n, without the change of n itself.
+                // Bump mapping \[Blinn78\]: the normal of S + h n, without the change of n itself.
                 let (du, dv) = (tangents.dpdu + slope.x * n_geom, tangents.dpdv + slope.y * n_geom);
                 let normal = du.cross(dv);
                 if normal.dot(n_geom) < 0.0 { -normal } else { normal }
             }
         };
-        // A tilt of a right angle or more has no meaning on a surface that moves nothing.
+        // A tilt by a right angle or more has no meaning on a surface that is not displaced.
         tilted.try_normalize().filter(|n| n.dot(n_geom) > 1e-3).unwrap_or(n_geom)
     }
 
@@ -164,12 +164,12 @@ impl Material {
         self.lookups
     }
 
-    /// Whether the normal is tilted by a map.
+    /// Whether a map tilts the shading normal.
     pub fn has_relief(&self) -> bool {
         self.relief.is_some()
     }
 
-    /// Whether part of the light goes on in one direction only: mirrors, glass, polish.
+    /// Whether it has a specular lobe: mirror, glass, polished.
     pub fn is_specular(&self) -> bool {
         match &self.model {
             Model::Polished { reflectance, .. } | Model::Mirror { reflectance } => reflectance.bound() > 0.0,
@@ -178,7 +178,7 @@ impl Material {
         }
     }
 
-    /// An upper bound of what is scattered in many directions, over the surface and the channels.
+    /// An upper bound of the albedo without specular lobes, over the surface and the channels.
     pub fn scattered_bound(&self) -> f32 {
         match &self.model {
             Model::Diffuse { albedo } | Model::Polished { albedo, .. } => albedo.bound(),
@@ -187,7 +187,7 @@ impl Material {
         }
     }
 
-    /// Absorption inside, per scene unit, for glass that absorbs.
+    /// The absorption inside of glass, per scene unit; `None` if it is zero, or for other materials.
     pub fn absorption(&self) -> Option<Rgb> {
         match &self.model {
             Model::Glass { absorption, .. } if *absorption != Rgb::ZERO => Some(*absorption),
@@ -195,14 +195,14 @@ impl Material {
         }
     }
 
-    /// Index of refraction of glass, 1 for all else.
+    /// The index of refraction of glass; 1 for other materials.
     pub fn ior(&self) -> f64 {
         if let Model::Glass { ior, .. } = &self.model { *ior } else { 1.0 }
     }
 }
 
-/// The albedo, lowered where it would reflect more light than arrives together with the lobe: constants are checked
-/// with the scene, texels are not.
+/// The albedo, reduced where diffuse lobe and other lobe together would reflect more than all light: validation checks
+/// constants, but not texels.
 fn within_energy(albedo: Rgb, lobe: Lobe) -> Rgb {
     match lobe {
         Lobe::Phong { specular: other, .. } | Lobe::Mirror { reflectance: other } => {

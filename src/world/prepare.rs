@@ -1,6 +1,7 @@
 use super::material::{Model, Relief, Source};
+use super::shared_edges::shared_edges;
 use super::texture::{self, TextureKey};
-use super::{Camera, Image, Light, Material, SharedEdges, Surface, World};
+use super::{Camera, Image, Light, Material, PrepareError, SharedEdges, Surface, World};
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
 use crate::math::{Aabb, Rgb};
@@ -8,29 +9,14 @@ use crate::scene::{self, Emitter, Location, MaterialModel, Scene, Shape, Texture
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Arc;
-use thiserror::Error;
 
-/// Why a scene can't be rendered.
-#[derive(Debug, Error, PartialEq)]
-pub enum PrepareError {
-    /// A texture's file is missing or damaged.
-    #[error("texture {0}")]
-    Texture(String),
-    /// A name that nothing has.
-    #[error("{user} refers to {kind} `{name}`, which does not exist")]
-    UnknownName {
-        /// Who refers to it.
-        user: String,
-        /// Texture or material.
-        kind: &'static str,
-        /// The name.
-        name: String,
-    },
-}
-
-/// The world of a scene. Whatever a previous world has in common with it is taken over: a moved control point
-/// rebuilds its own patch's tree and refits the tree above; a material or a light rebuilds neither; an image is read
-/// once.
+/// Prepares the world of a scene; paths in the scene are relative to `location`. The world shares with `previous` what has
+/// not changed: a moved control point rebuilds the tree of its patch and refits the BVH; a new material or light rebuilds
+/// neither; an image is decoded once.
+///
+/// # Errors
+///
+/// If a texture file cannot be read or decoded, or a texture or material that the scene names does not exist.
 pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> Result<World, PrepareError> {
     let mut textures = Textures { scene, location, previous, decoded: Vec::new() };
     let materials = scene.materials.iter().map(|m| textures.material(m)).collect::<Result<Vec<_>, _>>()?;
@@ -59,7 +45,7 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
     })
 }
 
-/// A primitive whose tree is not built yet.
+/// A primitive before its tree is built.
 #[allow(clippy::large_enum_variant, reason = "lives only while the tree is built; most of a large scene are patches")]
 enum Description {
     Ready(Primitive),
@@ -111,7 +97,7 @@ fn simple_primitive(shape: &Shape) -> Primitive {
         Shape::Quad { corner, edge_u, edge_v } => Primitive::Quad(Quad::new(corner, edge_u, edge_v)),
         Shape::Sphere { center, radius } => Primitive::Sphere(Sphere { center, radius }),
         Shape::Plane { point, normal, u_axis } => Primitive::Plane(Plane::new(point, normal, u_axis)),
-        // Patches are not simple; an empty quad meets no ray.
+        // Never asked for; no ray hits an empty quad.
         Shape::Bezier(_) => Primitive::Quad(Quad::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO)),
     }
 }
@@ -137,38 +123,7 @@ fn aggregate(descriptions: Vec<Description>, previous: Option<&World>) -> Aggreg
     }
 }
 
-/// For each patch, which of its edges another patch of the same object has too, in either direction.
-fn shared_edges(nets: &[ControlNet]) -> Vec<SharedEdges> {
-    let edges = |net: &ControlNet| {
-        let p = &net.points;
-        [
-            [p[0][0], p[0][1], p[0][2], p[0][3]],
-            [p[3][0], p[3][1], p[3][2], p[3][3]],
-            p.map(|row| row[0]),
-            p.map(|row| row[3]),
-        ]
-    };
-    // An edge as bits that do not depend on its direction, so that equal edges can be counted by sorting.
-    let key = |edge: &[DVec3; 4]| {
-        let bits = |points: [DVec3; 4]| points.map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
-        let [a, b, c, d] = *edge;
-        bits([a, b, c, d]).min(bits([d, c, b, a]))
-    };
-    let mut keys: Vec<_> = nets.iter().flat_map(|net| edges(net).map(|edge| key(&edge))).collect();
-    keys.sort_unstable();
-    let is_shared = |edge: &[DVec3; 4]| {
-        let key = key(edge);
-        let first = keys.partition_point(|k| *k < key);
-        keys.get(first + 1) == Some(&key)
-    };
-    let shared = |net: &ControlNet| {
-        let [u0, u1, v0, v1] = edges(net).map(|edge| is_shared(&edge));
-        SharedEdges { u: [u0, u1], v: [v0, v1] }
-    };
-    nets.iter().map(shared).collect()
-}
-
-/// Images decoded so far, and where others come from.
+/// The images decoded so far, and the source of more.
 struct Textures<'a> {
     scene: &'a Scene,
     location: &'a Location,
@@ -179,7 +134,7 @@ struct Textures<'a> {
 impl Textures<'_> {
     fn material(&mut self, material: &scene::Material) -> Result<Material, PrepareError> {
         let user = format!("material `{}`", material.name);
-        // What no object shows is never read.
+        // Textures of materials that no object has are not read.
         if !self.scene.objects.iter().any(|object| object.material == material.name) {
             return Ok(Material::new(Model::Diffuse { albedo: Source::Constant(Rgb::ZERO) }, None));
         }

@@ -3,25 +3,25 @@ use crate::math::Rgb;
 use crate::scene::{Encoding, Location};
 use glam::DVec2;
 
-/// A decoded texture: linear values, repeated in both directions.
+/// A decoded texture, repeated in both directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     width: usize,
     height: usize,
     texels: Texels,
-    /// Linear value of each code of the file.
+    /// The linear value of each code of the file.
     values: Vec<f32>,
 }
 
-/// Codes of the file's channels, row by row from the top: a fraction of the memory of linear values, whose cache misses would
-/// take most of the time of a lookup.
+/// The codes of the file's channels, row by row from the top. They take a fraction of the memory of linear values, whose
+/// cache misses would dominate the time of a lookup.
 #[derive(Clone, Debug, PartialEq)]
 enum Texels {
     Bytes(Vec<[u8; 3]>),
     Words(Vec<[u16; 3]>),
 }
 
-/// What a decoded image depends on.
+/// The identity of a decoded image.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextureKey {
     pub(super) location: Location,
@@ -31,6 +31,10 @@ pub(super) struct TextureKey {
 
 impl TextureKey {
     /// Reads and decodes the file.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read or decoded.
     pub(super) fn decode(&self) -> Result<Image, PrepareError> {
         let picture = self.location.read_picture(&self.file).map_err(PrepareError::Texture)?;
         let (width, height) = (picture.width() as usize, picture.height() as usize);
@@ -47,7 +51,7 @@ impl TextureKey {
     }
 }
 
-/// Encodings as materials need them: maps are linear whatever the scene says.
+/// Whether a texture is decoded as linear: always if it is a normal or height map.
 pub(super) fn is_linear(encoding: Encoding, is_map: bool) -> bool {
     is_map || encoding == Encoding::Linear
 }
@@ -58,7 +62,7 @@ fn linear_from_srgb(c: f32) -> f32 {
 }
 
 impl Image {
-    /// The value at (u, v), (0, 0) the bottom-left corner, bilinear between texel centres.
+    /// The linear value at (u, v), bilinear between texel centers; (0, 0) is the bottom-left corner.
     pub fn sample(&self, uv: DVec2) -> Rgb {
         let ((x0, x1, fx), (y0, y1, fy)) = self.neighbours(uv);
         let top = self.texel(x0, y0).lerp(self.texel(x1, y0), fx);
@@ -66,7 +70,7 @@ impl Image {
         top.lerp(bottom, fy)
     }
 
-    /// Derivatives of the mean of the channels with respect to u and v, of the bilinear interpolation.
+    /// The derivatives by u and v of the bilinear interpolation of the mean of the channels.
     pub fn gradient(&self, uv: DVec2) -> DVec2 {
         let ((x0, x1, fx), (y0, y1, fy)) = self.neighbours(uv);
         let h = |x, y| f64::from(self.texel(x, y).element_sum()) / 3.0;
@@ -85,7 +89,7 @@ impl Image {
         })
     }
 
-    /// Columns and rows around (u, v), with the weights of the second ones.
+    /// The two columns and the two rows around (u, v), each with the weight of the second.
     fn neighbours(&self, uv: DVec2) -> ((usize, usize, f32), (usize, usize, f32)) {
         let around = |x: f64, n: usize| {
             // Repeated first, so that no coordinate is too large; the difference may round up to 1 itself.
