@@ -101,6 +101,11 @@ pub(super) struct Budget {
     pub(super) error: Option<f64>,
 }
 
+impl Budget {
+    /// The seconds of rendering without a budget on the command line.
+    pub(super) const DEFAULT_SECONDS: f64 = 10.0;
+}
+
 #[derive(Debug, Args)]
 pub(super) struct BenchArguments {
     /// A scene file or the name of a built-in scene

@@ -1,4 +1,4 @@
-use super::{CliError, args::CheckArguments, render::pool, words::counted};
+use super::{CliError, args::CheckArguments, rendering::pool, words::counted};
 use crate::{
     engine::{PlanSummary, Session},
     scene::{Scene, SceneFile, Shape},

@@ -9,6 +9,7 @@ mod intersect;
 mod output;
 mod progress;
 mod render;
+mod rendering;
 mod statistics;
 mod words;
 

@@ -42,6 +42,6 @@ fn part_done(budget: &Budget, stats: &Stats) -> f64 {
         // Errors fall about like the square root of time.
         (_, Some(limit), Some(estimate)) => (limit / estimate).powi(2),
         (_, Some(_), None) => 0.0,
-        _ => stats.seconds / budget.seconds.unwrap_or(super::render::DEFAULT_SECONDS),
+        _ => stats.seconds / budget.seconds.unwrap_or(Budget::DEFAULT_SECONDS),
     }
 }

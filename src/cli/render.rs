@@ -3,24 +3,21 @@ use super::{
     args::{Budget, RenderArguments, RenderSettings},
     output::{needs_folder, write},
     progress::Progress,
+    rendering::{advance, pool},
     statistics::Statistics,
     words::counted,
 };
 use crate::{
-    engine::{Frame, Session, SessionError},
+    engine::{Frame, Session},
     film::{ToneMap, write_exr, write_png},
     scene::SceneFile,
-    transport::{Cancel, Component},
+    transport::Component,
 };
 use cpu_time::ProcessTime;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::{
     io::{Write, stderr},
     path::Path,
 };
-
-/// How long to render when nobody says.
-pub(super) const DEFAULT_SECONDS: f64 = 10.0;
 
 /// `patchlight render`.
 pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
@@ -61,24 +58,7 @@ fn is_spent(budget: &Budget, session: &Session, last: f64) -> bool {
     if let Some(limit) = budget.error {
         return session.reaches(limit);
     }
-    session.seconds() + last > budget.seconds.unwrap_or(DEFAULT_SECONDS)
-}
-
-/// Renders one more iteration; the seconds that it took.
-pub(super) fn advance(session: &mut Session) -> f64 {
-    let before = session.seconds();
-    // Nobody cancels: there always is a result.
-    session.advance(Cancel::NEVER);
-    session.seconds() - before
-}
-
-/// Renders as long as the next iteration would end in time if it took as long as the one before, which took `last`;
-/// the seconds that the newest one took.
-pub(super) fn advance_until(session: &mut Session, mut last: f64, seconds: f64) -> f64 {
-    while session.seconds() + last <= seconds {
-        last = advance(session);
-    }
-    last
+    session.seconds() + last > budget.seconds.unwrap_or(Budget::DEFAULT_SECONDS)
 }
 
 /// What the name of the output asks for.
@@ -114,13 +94,6 @@ fn sized(mut file: SceneFile, settings: &RenderSettings) -> SceneFile {
         file.scene.film.height = height;
     }
     file
-}
-
-/// The threads that render: this many, or one for each core.
-pub(super) fn pool(threads: Option<u16>) -> Result<ThreadPool, CliError> {
-    let count = threads.map_or(0, usize::from);
-    let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|k| format!("render {k}")).build();
-    pool.map_err(|e| CliError::from(SessionError::from(e)))
 }
 
 fn report(frame: &Frame, output: &Path) -> Result<(), CliError> {

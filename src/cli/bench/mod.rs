@@ -15,7 +15,7 @@ use super::{
     CliError,
     args::BenchArguments,
     output::{needs_folder, write},
-    render::pool,
+    rendering::pool,
 };
 use crate::{
     film::{Mask, read_exr},

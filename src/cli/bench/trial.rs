@@ -1,6 +1,9 @@
-use super::{CliError, measurement::Measurement, table, truth::Truth};
+use super::{measurement::Measurement, table, truth::Truth};
 use crate::{
-    cli::render::{advance, advance_until},
+    cli::{
+        CliError,
+        rendering::{advance, advance_until},
+    },
     engine::Session,
     scene::SceneFile,
     transport::Component,

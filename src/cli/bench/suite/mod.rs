@@ -6,7 +6,7 @@ mod result;
 mod run;
 
 use super::{csv::csv, median::medians, plot};
-use crate::cli::{CliError, output::write, render::pool};
+use crate::cli::{CliError, output::write, rendering::pool};
 use result::RunResult;
 use run::Run;
 use std::{

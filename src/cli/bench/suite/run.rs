@@ -3,7 +3,7 @@ use crate::{
     cli::{
         CliError,
         bench::{measurement::Measurement, trial::Trial, truth::Truth},
-        render::{advance, advance_until},
+        rendering::{advance, advance_until},
     },
     engine::Session,
     film::{LinearImage, Mask, compare_with_both, read_exr},

@@ -1,0 +1,32 @@
+//! The thread pool and the timed iterations of all commands that render.
+
+use super::CliError;
+use crate::{
+    engine::{Session, SessionError},
+    transport::Cancel,
+};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// A pool of this many threads, or of one thread per core.
+pub(super) fn pool(threads: Option<u16>) -> Result<ThreadPool, CliError> {
+    let count = threads.map_or(0, usize::from);
+    let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|k| format!("render {k}")).build();
+    pool.map_err(|e| CliError::from(SessionError::from(e)))
+}
+
+/// Renders one iteration and returns the seconds that it took.
+pub(super) fn advance(session: &mut Session) -> f64 {
+    let before = session.seconds();
+    // Never cancelled, so that there always is a result.
+    session.advance(Cancel::NEVER);
+    session.seconds() - before
+}
+
+/// Renders iterations until the session's rendering time is `seconds`: as long as the next iteration, if it takes as long as
+/// the one before, ends in time. `last` is the time of the last iteration; returns the time of the new last one.
+pub(super) fn advance_until(session: &mut Session, mut last: f64, seconds: f64) -> f64 {
+    while session.seconds() + last <= seconds {
+        last = advance(session);
+    }
+    last
+}
