@@ -10,7 +10,12 @@ use std::{
     path::Path,
 };
 
-/// Writes a picture as an OpenEXR file of 32-bit floats, whole or not at all. No exposure or tone curve goes into it.
+/// Writes an image as an OpenEXR file of 32-bit floats, without exposure and tone curve. The file is written whole or not at
+/// all.
+///
+/// # Errors
+///
+/// If the file cannot be written.
 pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), ImageError> {
     let failed = |source| ImageError::Write { file: path.to_owned(), source };
     let width = image.width as usize;
@@ -25,7 +30,11 @@ pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), ImageError> {
     write_whole(path, bytes.get_ref()).map_err(failed)
 }
 
-/// Reads the first layer with channels R, G and B of an OpenEXR file, of halves or floats, with alpha or without.
+/// Reads the first layer with channels R, G and B of an OpenEXR file, of half or single precision.
+///
+/// # Errors
+///
+/// If the file cannot be read, or is not an OpenEXR file with such a layer.
 pub fn read_exr(path: &Path) -> Result<LinearImage, ImageError> {
     let bytes = fs::read(path).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
     let image = read()
@@ -46,7 +55,7 @@ pub fn read_exr(path: &Path) -> Result<LinearImage, ImageError> {
         .from_buffered(Cursor::new(bytes))
         .map_err(|e| ImageError::Content {
             file: path.to_owned(),
-            message: format!("no OpenEXR picture in colour: {e}"),
+            message: format!("not an OpenEXR image with channels R, G and B: {e}"),
         })?;
     Ok(image.layer_data.channel_data.pixels)
 }

@@ -1,16 +1,16 @@
-//! How different a viewer finds two pictures who looks from one to the other: the mean of FLIP \[Andersson20\].
+//! The FLIP metric: the perceived difference when flipping between two images \[Andersson20\].
 
 use super::{LinearImage, Mask, ToneMap};
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8};
 
-/// For each pixel how different the two look on a screen, 0 to 1. Both have the same size.
+/// For each pixel, the perceived difference of two images of the same size on a screen, from 0 to 1.
 pub fn flip(image: &LinearImage, reference: &LinearImage, tone: &ToneMap) -> Vec<f32> {
     let shown =
         |image: &LinearImage| FlipImageRgb8::with_data(image.width, image.height, tone.map_image(image).as_flattened());
     nv_flip::flip(shown(reference), shown(image), DEFAULT_PIXELS_PER_DEGREE).to_vec()
 }
 
-/// The mean of these over the pixels that count; not a number where none does.
+/// The mean of per-pixel values over the pixels inside the mask; NaN if there are none.
 pub fn mean_inside(differences: &[f32], mask: Option<&Mask>) -> f64 {
     let counts = |k: usize| mask.is_none_or(|mask| mask.inside[k]);
     let counting = differences.iter().enumerate().filter(|(k, _)| counts(*k));

@@ -1,18 +1,18 @@
 use crate::math::Rgb;
 
-/// A picture in linear Rec.709 radiance.
+/// An image of radiance, in linear Rec.709 RGB.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct LinearImage {
-    /// Pixels in a row.
+    /// Pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Rows of pixels.
     pub height: u32,
-    /// Row after row, the top row first: `width * height` of them.
+    /// The `width * height` pixels, row by row from the top.
     pub pixels: Vec<Rgb>,
 }
 
 impl LinearImage {
-    /// A black picture.
+    /// A black image.
     pub fn black(width: u32, height: u32) -> Self {
         Self { width, height, pixels: vec![Rgb::ZERO; width as usize * height as usize] }
     }

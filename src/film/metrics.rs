@@ -1,16 +1,17 @@
 use super::{ImageError, LinearImage, Mask};
 use crate::math::Rgb;
 
-/// Keeps the relative error of dark pixels finite; the square of a tenth of the radiance of a bright wall.
+/// Keeps the relative error of dark pixels finite: the square of a tenth of the radiance of a bright wall.
 const RELATIVE_FLOOR: f64 = 0.01;
 
-/// Part of the pixels that the trimmed errors keep, the best ones: outliers should not decide.
+/// The fraction of the pixels, those with the smallest errors, over which trimmed errors are means: outliers do not dominate
+/// them.
 const TRIMMED_PART: f64 = 0.999;
 
-/// How far a picture is from its reference, over pixels and channels.
+/// The errors of an image against its reference, over pixels and channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Pixels that counted.
+    /// The number of compared pixels.
     pub pixels: usize,
     /// `sqrt(mean((x - r)^2))`, in radiance.
     pub rmse: f64,
@@ -20,22 +21,29 @@ pub struct Errors {
     pub rmse_trimmed: f64,
     /// [`Errors::rel_mse`] without the worst 0.1 % of the pixels.
     pub rel_mse_trimmed: f64,
-    /// Mean of the picture over mean of the reference: a bias shows here that noise hides elsewhere.
+    /// Mean of the image over mean of the reference, for each channel: shows a bias that noise hides in the other errors.
     pub mean_ratio: [f64; 3],
-    /// Mean radiance of the reference over pixels and channels.
+    /// Mean radiance of the reference, over pixels and channels.
     pub reference_mean: f64,
 }
 
-/// Compares a picture with its reference, inside the mask where there is one.
+/// Compares an image with its reference, inside the mask if there is one. Values that are not finite make the errors not
+/// finite.
 ///
-/// Fails when the sizes differ. Values that are not finite make the errors so.
+/// # Errors
+///
+/// If the sizes of image, reference and mask differ.
 pub fn compare(image: &LinearImage, reference: &LinearImage, mask: Option<&Mask>) -> Result<Errors, ImageError> {
     compare_with_both(image, reference, reference, mask)
 }
 
-/// The same without the references' noise: instead of squares of differences from one reference it takes the products of the
-/// differences from two. Their mean holds no noise of either if they have none in common. Means and weights are those of the
-/// first one; where the errors are as good as nothing, noise may make their squares negative, and the RMSE is then 0.
+/// Compares an image with two references with independent noise, which the errors then do not contain: they are means of
+/// the products of the differences from the first and from the second reference, instead of squares. Means and weights are
+/// of the first reference. For tiny errors noise may make the mean of products negative; the RMSE is then 0.
+///
+/// # Errors
+///
+/// If the sizes of image, references and mask differ.
 pub fn compare_with_both(
     image: &LinearImage,
     first: &LinearImage,
@@ -76,12 +84,12 @@ fn errors(pixels: impl Iterator<Item = [Rgb; 3]>) -> Errors {
     }
 }
 
-/// The mean; not a number where there is none.
+/// The mean; NaN for no values.
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Of a negative number 0; of what is not a number the same.
+/// The square root; 0 for negative numbers, NaN for NaN.
 fn root(square: f64) -> f64 {
     if square < 0.0 { 0.0 } else { square.sqrt() }
 }

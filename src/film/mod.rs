@@ -1,4 +1,14 @@
-//! Pictures: linear images, tone curves, PNG and OpenEXR files, and how far one picture is from another.
+//! Images: linear images, tone curves, PNG and OpenEXR files, and error metrics.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `image` | [`LinearImage`] |
+//! | `error` | [`ImageError`] |
+//! | `tone` | [`ToneMap`]: exposure and tone curve, to 8 bits |
+//! | `png` | [`write_png`]; [`Mask`]: the pixels that a comparison includes |
+//! | `exr` | [`read_exr`], [`write_exr`] |
+//! | `metrics` | [`Errors`]: RMSE, relMSE and bias against a reference |
+//! | `flip` | the FLIP metric, with the feature `flip` |
 
 mod error;
 mod exr;

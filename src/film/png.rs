@@ -3,7 +3,11 @@ use crate::file::write_whole;
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::{fs, io, path::Path};
 
-/// Writes a picture as a PNG file of 8 bits a channel, sRGB, whole or not at all.
+/// Writes an image as an sRGB PNG file of 8 bits per channel. The file is written whole or not at all.
+///
+/// # Errors
+///
+/// If the file cannot be written.
 pub fn write_png(path: &Path, image: &LinearImage, tone: &ToneMap) -> Result<(), ImageError> {
     let failed = |source| ImageError::Write { file: path.to_owned(), source };
     let mut bytes = Vec::new();
@@ -13,19 +17,23 @@ pub fn write_png(path: &Path, image: &LinearImage, tone: &ToneMap) -> Result<(),
     write_whole(path, &bytes).map_err(failed)
 }
 
-/// The pixels that count.
+/// The pixels that a comparison includes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
-    /// Pixels in a row.
+    /// Pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Rows of pixels.
     pub height: u32,
-    /// For each pixel, the top row first, whether it counts.
+    /// Whether each pixel is included, row by row from the top.
     pub inside: Vec<bool>,
 }
 
 impl Mask {
-    /// Reads a PNG or JPEG file, in which bright pixels count.
+    /// The mask of the bright pixels of a PNG or JPEG file.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read or decoded.
     pub fn read(path: &Path) -> Result<Self, ImageError> {
         let bytes = fs::read(path).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
         let image = image::load_from_memory(&bytes)
@@ -38,7 +46,7 @@ impl Mask {
         })
     }
 
-    /// The other pixels.
+    /// The mask of the pixels that this mask excludes.
     pub fn inverted(&self) -> Self {
         Self { inside: self.inside.iter().map(|inside| !inside).collect(), ..*self }
     }

@@ -1,18 +1,18 @@
 use super::LinearImage;
 use crate::{math::Rgb, scene::ToneCurve};
 
-/// Radiance below this is black in 8 bits: half a step of the sRGB curve is at 1.5e-4.
+/// Radiance below this is black in 8 bits: half a step of the sRGB curve is 1.5e-4.
 const DARKEST: f32 = 1.0 / 8192.0;
 
-/// Radiance from here on is white on either curve.
+/// Radiance above this is white on both curves.
 const BRIGHTEST: f32 = 64.0;
 
-/// Bits of the mantissa that pick an entry: cells of 1/512 of an octave are at most 0.17 steps of 8 bits wide.
+/// Bits of the mantissa that index the table: its cells, 1/512 of an octave, are at most 0.17 steps of 8 bits wide.
 const MANTISSA_BITS: u32 = 9;
 
 const SHIFT: u32 = f32::MANTISSA_DIGITS - 1 - MANTISSA_BITS;
 
-/// How linear radiance becomes what a screen shows: an exposure and a tone curve, as one table.
+/// The map from linear radiance to 8-bit sRGB: exposure and tone curve in one table.
 #[derive(Clone, Debug)]
 pub struct ToneMap {
     gain: f32,
@@ -20,7 +20,7 @@ pub struct ToneMap {
 }
 
 impl ToneMap {
-    /// For an exposure in stops, each of which doubles the brightness.
+    /// The map of an exposure in stops (each doubles the brightness) and a tone curve.
     pub fn new(exposure: f64, curve: ToneCurve) -> Self {
         let first = DARKEST.to_bits() >> SHIFT;
         let last = BRIGHTEST.to_bits() >> SHIFT;
@@ -29,18 +29,18 @@ impl ToneMap {
         Self { gain: exposure.exp2() as f32, table }
     }
 
-    /// What a screen shows: 8 bits of each channel, sRGB. What is not a number is black.
+    /// The 8-bit sRGB colour of a radiance. NaN is black.
     pub fn map(&self, radiance: Rgb) -> [u8; 3] {
         (radiance * self.gain).to_array().map(|x| self.look_up(x))
     }
 
-    /// All pixels of a picture, the top row first.
+    /// The 8-bit sRGB colours of all pixels, row by row from the top.
     pub fn map_image(&self, image: &LinearImage) -> Vec<[u8; 3]> {
         image.pixels.iter().map(|pixel| self.map(*pixel)).collect()
     }
 
     fn look_up(&self, x: f32) -> u8 {
-        // Not-a-number is neither: `max` takes the other operand.
+        // Black for NaN: `max` returns the other operand.
         let x = x.max(0.0);
         if x < DARKEST {
             return 0;
@@ -58,8 +58,8 @@ fn encode(x: f32, curve: ToneCurve) -> u8 {
     (srgb_from_linear(x.min(1.0)) * 255.0).round() as u8
 }
 
-/// Leaves the darker half as it is and lets highlights approach 1: the rational curve `t / (1 + t)` \[Reinhard02\]
-/// from the knee on, with slope 1 there.
+/// Keeps radiance below the knee and lets highlights approach 1, by the curve `t / (1 + t)` \[Reinhard02\] above the knee,
+/// with slope 1 there.
 fn roll_off(x: f32) -> f32 {
     const KNEE: f32 = 0.5;
     let t = (x - KNEE) / (1.0 - KNEE);

@@ -10,7 +10,7 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box that holds nothing: the neutral element of [`Aabb::union`].
+    /// The box without points, the neutral element of [`Aabb::union`].
     pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
     /// The smallest box around all points.
@@ -23,18 +23,18 @@ impl Aabb {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Whether no point is inside.
+    /// Whether the box has no points.
     pub fn is_empty(&self) -> bool {
         !(self.min.cmple(self.max).all())
     }
 
-    /// Its eight corners.
+    /// The eight corners; x varies fastest.
     pub fn corners(&self) -> [DVec3; 8] {
         let [x, y, z] = [0, 1, 2].map(|axis| [self.min[axis], self.max[axis]]);
         std::array::from_fn(|k| DVec3::new(x[k & 1], y[k >> 1 & 1], z[k >> 2]))
     }
 
-    /// The middle; meaningless for an empty box.
+    /// The center; NaN for [`Aabb::EMPTY`].
     pub fn center(&self) -> DVec3 {
         0.5 * (self.min + self.max)
     }
@@ -55,12 +55,12 @@ impl Aabb {
         s.x * s.y + s.y * s.z + s.z * s.x
     }
 
-    /// How far a point is from the box; 0 inside, infinite for an empty box.
+    /// The distance of a point to the box; 0 inside, infinite for [`Aabb::EMPTY`].
     pub fn distance(&self, point: DVec3) -> f64 {
         (self.min - point).max(point - self.max).max(DVec3::ZERO).length()
     }
 
-    /// The box grown by `margin` on every side.
+    /// The box enlarged by `margin` on every side.
     pub fn inflated(&self, margin: f64) -> Self {
         Self { min: self.min - margin, max: self.max + margin }
     }

@@ -1,18 +1,18 @@
-//! Floating-point helpers that say what error they leave.
+//! Directed rounding, and bounds of floating-point errors.
 
-/// Relative size of the offset that carries a ray off the surface it leaves, of the largest coordinate in play.
+/// The offset of a ray from the surface that it leaves, relative to the largest coordinate.
 ///
-/// A hit's position is exact to some 1e-14 of the coordinates (a few roundings of `f64` and one converged Newton
-/// step); a hundred times that never meets the surface again and stays far below what a picture can show.
+/// The position of a hit is exact to some 1e-14 of the coordinates (a few roundings of `f64` and one converged Newton
+/// step). An offset far above that never hits the surface again, and still is far too small to see.
 pub const SELF_HIT_OFFSET: f64 = 1e-11;
 
-/// The largest `f32` that is not above `x`.
+/// The largest `f32` that is at most `x`.
 pub fn round_down(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) > x { rounded.next_down() } else { rounded }
 }
 
-/// The smallest `f32` that is not below `x`.
+/// The smallest `f32` that is at least `x`.
 pub fn round_up(x: f64) -> f32 {
     let rounded = x as f32;
     if f64::from(rounded) < x { rounded.next_up() } else { rounded }

@@ -1,12 +1,13 @@
-//! Eight numbers at a time: the vectors of AVX2 where the processor has them, found out at run time, else whatever
-//! the target always has. (The crate `wide` alone decides when it is compiled, and so for half as many.)
+//! SIMD vectors of eight `f32`. Functions are compiled for AVX2 and for what the target always has; the processor decides at
+//! run time. (The crate `wide` decides at compile time, and so for vectors of four.)
 
 use wide::{f32x8, u32x8};
 
 /// Numbers in a vector.
 pub const LANES: usize = 8;
 
-/// A set of vector instructions. Comparisons give masks: all bits of a lane where it holds, else none.
+/// A set of vector instructions. Comparisons return masks: in each lane all bits are set where the comparison holds, else
+/// none.
 pub trait Lanes: Copy {
     /// [`LANES`] numbers or masks.
     type Vector: Copy;
@@ -18,9 +19,9 @@ pub trait Lanes: Copy {
 
     /// The same number in every lane.
     fn splat(self, x: f32) -> Self::Vector;
-    /// Numbers from memory.
+    /// Loads numbers from memory.
     fn load(self, x: &[f32; LANES]) -> Self::Vector;
-    /// Numbers to memory.
+    /// Stores numbers to memory.
     fn store(self, v: Self::Vector) -> [f32; LANES];
     /// `a + b`.
     fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
@@ -30,15 +31,15 @@ pub trait Lanes: Copy {
     fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     /// `a / b`.
     fn div(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
-    /// `a b + c`.
+    /// `a b + c`, fused where the instructions are.
     fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector;
-    /// The greater one.
+    /// The greater number of each lane; unspecified for NaN.
     fn max(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
-    /// The lesser one.
+    /// The lesser number of each lane; unspecified for NaN.
     fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
-    /// Without its sign.
+    /// The absolute value.
     fn abs(self, a: Self::Vector) -> Self::Vector;
-    /// The square root; not a number of what is negative.
+    /// The square root; NaN for negative numbers.
     fn sqrt(self, a: Self::Vector) -> Self::Vector;
     /// 1 with the sign of `a`.
     fn sign(self, a: Self::Vector) -> Self::Vector;
@@ -46,11 +47,11 @@ pub trait Lanes: Copy {
     fn less(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     /// Mask of `first <= x < first + count`, of unsigned integers; `count` is not 0.
     fn in_range(self, x: &[u32; LANES], first: u32, count: u32) -> Self::Vector;
-    /// Both masks, or a number where the mask holds and else 0.
+    /// The bitwise and: of two masks, or of a mask and numbers, which become 0 where the mask is not set.
     fn and(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
-    /// `a b + c` of single numbers in double precision.
+    /// `a b + c` of scalars in double precision, fused where the instructions are.
     fn mul_add_f64(self, a: f64, b: f64, c: f64) -> f64;
-    /// A bit for each lane, the first the lowest.
+    /// The mask as a bit for each lane, lane 0 in the lowest bit.
     fn bits(self, mask: Self::Vector) -> u32;
 
     /// The sum of the lanes.
@@ -60,19 +61,19 @@ pub trait Lanes: Copy {
         ((a + e) + (c + g)) + ((b + f) + (d + h))
     }
 
-    /// Vectors from memory.
+    /// Loads three vectors, the coordinates of eight points.
     #[inline(always)]
     fn load3(self, [x, y, z]: &[[f32; LANES]; 3]) -> [Self::Vector; 3] {
         [self.load(x), self.load(y), self.load(z)]
     }
 
-    /// The same vector in every lane.
+    /// A point in every lane.
     #[inline(always)]
     fn splat3(self, [x, y, z]: [f32; 3]) -> [Self::Vector; 3] {
         [self.splat(x), self.splat(y), self.splat(z)]
     }
 
-    /// The same number in every lane, times `a`.
+    /// `a` times a scalar.
     #[inline(always)]
     fn scale(self, factor: f32, a: Self::Vector) -> Self::Vector {
         self.mul(self.splat(factor), a)
@@ -85,7 +86,7 @@ pub trait Lanes: Copy {
     }
 }
 
-/// The places of the bits that are set, in rising order.
+/// The indices of the set bits, in ascending order.
 #[inline(always)]
 pub fn set_bits(mut mask: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -220,7 +221,7 @@ impl Lanes for Portable {
     }
 }
 
-/// AVX2; to have one proves that the processor does.
+/// AVX2 and FMA. A value of this type proves that the processor has them.
 #[cfg(target_arch = "x86_64")]
 pub use pulp::x86::V3 as Avx2;
 

@@ -1,7 +1,17 @@
-//! Rays, boxes, frames, error bounds, sampling warps and index-based random streams.
+//! Rays, boxes, orthonormal bases, error bounds, sampling warps, random streams and SIMD.
 //!
-//! Geometry is computed in `f64`, colour in `f32`: a ray's start must be exact to a small fraction of the
-//! offset that keeps it off its own surface, at any distance from the world's origin.
+//! | file | holds |
+//! |---|---|
+//! | `ray`, `aabb` | [`Ray`], [`Aabb`] |
+//! | `orthonormal_basis` | [`OrthonormalBasis`] around a normal |
+//! | [`float`] | directed rounding, the offset of rays from surfaces |
+//! | [`warp`] | from the unit square to directions and discs, with densities |
+//! | [`octahedral`] | the equal-area map between square and sphere |
+//! | [`sobol`] | [`Sampler`]: Owen-scrambled Sobol points by index |
+//! | [`lanes`] | [`Lanes`]: SIMD vectors of eight `f32`, and the choice of instructions at run time |
+//!
+//! Geometry is computed in `f64`, colour in `f32`: the origin of a ray must be exact to a small fraction of the offset that
+//! keeps it off its own surface, at any distance from the world's origin.
 
 mod aabb;
 pub mod float;

@@ -1,5 +1,5 @@
-//! The equal-area map between the unit square and the sphere of directions \[Clarberg08\]: equal areas in the square
-//! are equal solid angles, neighbours stay neighbours, and nothing is singular at a pole.
+//! The equal-area octahedral map between the unit square and the sphere of directions \[Clarberg08\]: equal areas in the
+//! square are equal solid angles, and the map is continuous and without poles.
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_4;

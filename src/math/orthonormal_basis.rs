@@ -12,7 +12,7 @@ pub struct OrthonormalBasis {
 }
 
 impl OrthonormalBasis {
-    /// A basis with this unit normal: without branches on its direction, hence without poles \[Duff17\].
+    /// A basis with this unit normal, without poles \[Duff17\].
     pub fn from_normal(normal: DVec3) -> Self {
         let sign = 1f64.copysign(normal.z);
         let a = -1.0 / (sign + normal.z);
@@ -24,9 +24,8 @@ impl OrthonormalBasis {
         }
     }
 
-    /// The basis with this unit normal whose tangent lies along `dpdu`, made orthogonal to the normal, and whose
-    /// bitangent lies on the side of `dpdv`. Falls back to [`OrthonormalBasis::from_normal`] where `dpdu` has no direction
-    /// across the normal.
+    /// The basis with this unit normal, with the tangent along the projection of `dpdu` and the bitangent on the side of
+    /// `dpdv`. Falls back to [`OrthonormalBasis::from_normal`] where `dpdu` is zero or along the normal.
     pub fn from_derivatives(normal: DVec3, dpdu: DVec3, dpdv: DVec3) -> Self {
         let across = dpdu - normal * normal.dot(dpdu);
         if across.length_squared() <= 1e-20 * dpdu.length_squared() {

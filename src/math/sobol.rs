@@ -1,30 +1,29 @@
 //! Owen-scrambled Sobol points as pure functions of (seed, stream, index, dimension) \[Burley20\].
 //!
-//! Points come in sets of four dimensions. Within a set any aligned power-of-two block of indices is a digital net;
-//! sets are paired at random by shuffling the index. So the four numbers that a path uses first should be the four
-//! that matter most.
+//! Dimensions come in sets of four (padding). Within a set, every aligned power-of-two block of indices is a digital net; sets
+//! are combined at random, by shuffled indices. A path should therefore use its first four numbers for what matters most.
 
 use glam::DVec2;
 
-/// What a stream of random numbers is for; streams are independent of each other.
+/// The purpose of a stream of random numbers. Streams are independent of each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stream {
-    /// Paths from the camera; one sequence a pixel.
+    /// Paths from the camera, one sequence per pixel.
     Camera,
     /// Photons aimed at specular surfaces.
     CausticPhoton,
-    /// Photons that carry interreflected light.
+    /// Photons of interreflection.
     GlobalPhoton,
-    /// Rays that look for what a light can reach.
+    /// Rays that find out what a light reaches.
     Probe,
-    /// Everything that tests draw.
+    /// Random numbers of tests.
     Test,
-    /// Draft frames draw from the stream with this number, apart from the converging picture.
+    /// Draft frames, each with a number of its own, apart from the converging picture.
     Draft(u8),
 }
 
 impl Stream {
-    /// A number that no other stream has; drafts' are above all others.
+    /// The number of the stream, different for every stream.
     pub const fn number(self) -> u8 {
         match self {
             Self::Camera => 1,
@@ -37,21 +36,20 @@ impl Stream {
     }
 }
 
-/// The point with a given index of one stream; hands out its coordinates in order.
+/// One point of a sequence, whose coordinates it returns one after another.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     index: u32,
     seed: u32,
     set: u32,
     used: usize,
-    /// With the bits in reverse order.
+    /// The coordinates of the set, with their bits reversed.
     point: [u32; 4],
 }
 
 impl Sampler {
-    /// The point number `index` of the sequence of `(seed, stream, sequence)`.
-    ///
-    /// Indices beyond `2^32` start a new, independently scrambled sequence: nothing repeats.
+    /// The point `index` of the sequence (seed, stream, sequence). Indices from `2^32` on start a new, independently scrambled
+    /// sequence.
     pub fn new(seed: u64, stream: Stream, sequence: u64, index: u64) -> Self {
         let key = mix64(seed ^ mix64(sequence ^ mix64((index >> 32) ^ (u64::from(stream.number()) << 56))));
         let mut sampler =
@@ -60,7 +58,7 @@ impl Sampler {
         sampler
     }
 
-    /// The next coordinate, in `[0, 1)`.
+    /// The next coordinate, above 0 and below 1.
     pub fn next_1d(&mut self) -> f64 {
         if self.used == 4 {
             self.next_set();
@@ -70,7 +68,7 @@ impl Sampler {
         unit_from_bits(x.reverse_bits())
     }
 
-    /// The next two coordinates of one set: well distributed together.
+    /// The next two coordinates, both of the same set, so that they are stratified together.
     pub fn next_2d(&mut self) -> DVec2 {
         if self.used > 2 {
             self.next_set();
@@ -78,7 +76,7 @@ impl Sampler {
         DVec2::new(self.next_1d(), self.next_1d())
     }
 
-    /// Leaves the rest of this set of four unused.
+    /// Skips the unused coordinates of this set of four.
     pub fn next_set(&mut self) {
         self.set += 1;
         self.used = 0;
@@ -95,7 +93,7 @@ impl Sampler {
     }
 }
 
-/// A well mixed 64-bit hash (the finaliser of SplitMix64).
+/// A 64-bit hash: the finalizer of SplitMix64.
 pub fn mix64(x: u64) -> u64 {
     let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -109,13 +107,13 @@ fn hash32(x: u32) -> u32 {
     x ^ (x >> 15)
 }
 
-/// The middle of the interval of length `2^-32` that the bits name: never 0, never 1.
+/// The center of the interval of length `2^-32` with these first bits: above 0 and below 1.
 fn unit_from_bits(bits: u32) -> f64 {
     (f64::from(bits) + 0.5) * 2f64.powi(-32)
 }
 
-/// Owen's nested uniform scramble by a hash in which low bits drive high bits only \[LaineKarras11\], of numbers with
-/// their bits in reverse order.
+/// Owen's nested uniform scrambling of a number with reversed bits, by a hash whose low bits affect only higher bits
+/// \[LaineKarras11\].
 fn owen_scramble(x: u32, seed: u32) -> u32 {
     let mut x = x;
     x ^= x.wrapping_mul(0x3d20_adea);
@@ -126,15 +124,14 @@ fn owen_scramble(x: u32, seed: u32) -> u32 {
     x
 }
 
-/// Coordinate `dimension` (0 to 3) of a Sobol point as a binary fraction of 32 bits. It and the index have their bits in
-/// reverse order.
+/// Coordinate `dimension` (0 to 3) of a Sobol point as a binary fraction of 32 bits; it and the index have reversed bits.
 fn sobol_bits(reversed_index: u32, dimension: usize) -> u32 {
     let table = &SOBOL_BYTES[dimension];
     let [a, b, c, d] = reversed_index.to_le_bytes();
     table[0][a as usize] ^ table[1][b as usize] ^ table[2][c as usize] ^ table[3][d as usize]
 }
 
-/// For each dimension and each byte of the index, the XOR of the direction numbers of its bits, all in reverse order.
+/// For each dimension and each byte of the index, the XOR of the direction numbers of the set bits, bits reversed.
 static SOBOL_BYTES: [[[u32; 256]; 4]; 4] = sobol_bytes();
 
 const fn sobol_bytes() -> [[[u32; 256]; 4]; 4] {
@@ -160,7 +157,7 @@ const fn sobol_bytes() -> [[[u32; 256]; 4]; 4] {
     tables
 }
 
-/// Direction numbers from a primitive polynomial of this degree and its first odd integers \[JoeKuo08\].
+/// The direction numbers of a primitive polynomial of this degree and of the first odd integers \[JoeKuo08\].
 const fn direction_numbers(degree: usize, coefficients: u32, first: [u32; 3]) -> [u32; 32] {
     let mut v = [0u32; 32];
     let mut i = 0;

@@ -1,9 +1,9 @@
-//! Warps from the unit square to directions and discs, each with its density.
+//! Warps from the unit square to discs and unit directions, with their densities.
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-/// A point in the unit disc, uniform by area, that keeps squares together \[ShirleyChiu97\].
+/// A point in the unit disc, uniform by area, by the concentric map \[ShirleyChiu97\].
 pub fn concentric_disc(u: DVec2) -> DVec2 {
     let offset = 2.0 * u - 1.0;
     if offset == DVec2::ZERO {
@@ -17,39 +17,38 @@ pub fn concentric_disc(u: DVec2) -> DVec2 {
     radius * DVec2::from_angle(angle)
 }
 
-/// A direction about +z with density `cos / pi`.
+/// A direction around +z with density `cos / pi` per steradian.
 pub fn cosine_hemisphere(u: DVec2) -> DVec3 {
     let disc = concentric_disc(u);
     disc.extend((1.0 - disc.length_squared()).max(0.0).sqrt())
 }
 
-/// A direction with density `1 / (4 pi)`.
+/// A direction with density `1 / (4 pi)` per steradian.
 pub fn uniform_sphere(u: DVec2) -> DVec3 {
     let z = 1.0 - 2.0 * u.x;
     ((1.0 - z * z).max(0.0).sqrt() * DVec2::from_angle(TAU * u.y)).extend(z)
 }
 
-/// A direction about +z with density `(exponent + 1) / (2 pi) * cos^exponent`, the lobe of the Phong model.
+/// A direction around +z with density `(exponent + 1) / (2 pi) * cos^exponent` per steradian: the Phong lobe.
 pub fn cosine_power(u: DVec2, exponent: f64) -> DVec3 {
     let z = (1.0 - u.x).powf(1.0 / (exponent + 1.0));
     ((1.0 - z * z).max(0.0).sqrt() * DVec2::from_angle(TAU * u.y)).extend(z)
 }
 
-/// Density of [`cosine_power`] at an angle with this cosine, per steradian.
+/// The density of [`cosine_power`] at an angle with this cosine, per steradian.
 pub fn pdf_cosine_power(cos: f64, exponent: f64) -> f64 {
     if cos > 0.0 { (exponent + 1.0) / TAU * cos.powf(exponent) } else { 0.0 }
 }
 
-/// A direction about +z, uniform in the cone whose half angle has `1 - cos = one_minus_cos`.
-///
-/// Taking `1 - cos` rather than the cosine keeps thin cones exact.
+/// A direction around +z, uniform in the cone with half angle a where `1 - cos a = one_minus_cos`, which is exact for thin
+/// cones too.
 pub fn uniform_cone(u: DVec2, one_minus_cos: f64) -> DVec3 {
     let rise = u.x * one_minus_cos;
     let sin = (rise * (2.0 - rise)).max(0.0).sqrt();
     (sin * DVec2::from_angle(TAU * u.y)).extend(1.0 - rise)
 }
 
-/// Density of [`uniform_cone`], per steradian.
+/// The density of [`uniform_cone`] inside the cone, per steradian.
 pub fn pdf_uniform_cone(one_minus_cos: f64) -> f64 {
     1.0 / (2.0 * PI * one_minus_cos)
 }
