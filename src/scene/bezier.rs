@@ -2,33 +2,33 @@ use crate::geometry::bezier::ControlNet;
 use glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
 
-/// Bicubic Bezier patches that move together.
+/// The shape of a Bezier object: bicubic patches with one transform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bezier {
-    /// Where the patches are put.
+    /// From the object space of the patches to the world.
     pub transform: Transform,
-    /// The control points before the transform; shared, so that a clone costs nothing.
+    /// The control nets in object space; shared, so that a clone copies none.
     pub patches: Arc<Vec<ControlNet>>,
-    /// The `.bpt` file that holds exactly these patches, relative to the scene file; `None`: written in the scene.
+    /// The `.bpt` file with exactly these patches, relative to the scene file; `None` if the scene file holds them.
     pub file: Option<String>,
 }
 
 impl Bezier {
-    /// The control nets where they stand in the world.
+    /// The control nets in world space.
     pub fn placed_nets(&self) -> Vec<ControlNet> {
         let world_from_object = self.transform.world_from_object();
         self.patches.iter().map(|net| net.transformed(&world_from_object)).collect()
     }
 }
 
-/// Scale, then rotate about x, y, z in turn, then translate.
+/// A transform: scale, then rotate about x, y and z in turn, then translate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
-    /// Scene units.
+    /// Translation, scene units.
     pub translate: DVec3,
-    /// Degrees about x, y and z.
+    /// Rotation about x, y and z, degrees.
     pub rotate: DVec3,
-    /// Factors along x, y and z, none of them 0.
+    /// Factors along x, y and z; not 0.
     pub scale: DVec3,
 }
 
@@ -39,7 +39,7 @@ impl Default for Transform {
 }
 
 impl Transform {
-    /// From the patches' own space to the world.
+    /// The affine map from object space to world space.
     pub fn world_from_object(&self) -> DAffine3 {
         let [x, y, z] = self.rotate.to_array().map(f64::to_radians);
         let rotation = DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x);

@@ -3,16 +3,16 @@ use include_dir::{Dir, include_dir};
 static SCENES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenes");
 static ASSETS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets");
 
-/// A scene that the program carries with it.
+/// A scene inside the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltInScene {
-    /// Its file's name without `.toml`.
+    /// The name of its file without `.toml`.
     pub name: &'static str,
-    /// For a menu.
+    /// The title in a menu.
     pub title: &'static str,
 }
 
-/// The scenes that the program carries with it, in the order of a menu; the first is the one to begin with.
+/// The scenes inside the program, in the order of a menu. The first is the default scene.
 pub const fn built_in_scenes() -> &'static [BuiltInScene] {
     const fn scene(name: &'static str, title: &'static str) -> BuiltInScene {
         BuiltInScene { name, title }
@@ -30,7 +30,8 @@ pub const fn built_in_scenes() -> &'static [BuiltInScene] {
     }
 }
 
-/// The bytes of a file that the program carries with it, by its path in the project, like `assets/textures/a.png`.
+/// The bytes of a file inside the program, by its path in the project, like `assets/textures/a.png`; `None` if there is no
+/// such file.
 pub(super) fn embedded(path: &str) -> Option<&'static [u8]> {
     let (folder, rest) = path.split_once('/')?;
     let files = match folder {

@@ -3,13 +3,13 @@ use glam::DVec3;
 /// A pinhole camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// The pinhole, scene units.
+    /// The position of the pinhole, scene units.
     pub position: DVec3,
-    /// The point in the middle of the picture.
+    /// The point that appears in the center of the image, scene units.
     pub target: DVec3,
-    /// Points upwards in the picture.
+    /// The direction that points up in the image; any length but 0.
     pub up: DVec3,
-    /// The whole vertical angle of view, degrees, between 0 and 180.
+    /// The full vertical field of view, degrees, above 0 and below 180.
     pub fov_y: f64,
 }
 

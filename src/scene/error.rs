@@ -1,59 +1,59 @@
 use super::Problem;
 use std::{fmt, io, path::PathBuf};
 
-/// Why a scene could not be opened or saved.
+/// Why a scene cannot be opened or saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// The file cannot be read.
     #[error("{}: cannot be read: {source}", file.display())]
     Read {
-        /// The scene file.
+        /// The path of the scene file.
         file: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The file was read and is no valid scene; everything that was found, in the order of the text.
+    /// The file is not a valid scene. Holds all problems, in the order of the text.
     #[error("{}", lines(file, problems))]
     Invalid {
-        /// The scene file, or the example's name.
+        /// The path of the scene file, or the name of the built-in scene.
         file: String,
-        /// Never empty.
+        /// The problems; never empty.
         problems: Vec<LocatedProblem>,
     },
-    /// The file holds control points, which are a part of a scene only.
-    #[error("{}: holds control points, not a scene; an object of type \"bezier\" takes them with `file = ...`", file.display())]
+    /// The file is a `.bpt` file of control points, not a scene.
+    #[error("{}: is a file of control points, not a scene; use it in an object of type \"bezier\" as `file = ...`", file.display())]
     ControlPoints {
-        /// The `.bpt` file.
+        /// The path of the `.bpt` file.
         file: PathBuf,
     },
-    /// No built-in scene has this name, and no file.
-    #[error("{name}: there is no such scene file, and built in are {known}{suggestion}")]
+    /// There is no scene file and no built-in scene of this name.
+    #[error("{name}: no such scene file or built-in scene; the built-in scenes are {known}{suggestion}")]
     NoSuchExample {
-        /// What was asked for.
+        /// The name.
         name: String,
-        /// The names that there are.
+        /// The names of the built-in scenes.
         known: String,
-        /// Empty, or the nearest name.
+        /// A suggestion of the nearest name, or empty.
         suggestion: String,
     },
-    /// The scene or a file that it needs cannot be written; nothing was changed at that path.
+    /// The scene file, or a file that the scene names, cannot be written. The previous file is unchanged.
     #[error("{}: cannot be written: {source}", file.display())]
     Write {
-        /// The file.
+        /// The path of the file.
         file: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: io::Error,
     },
 }
 
-/// A problem and where it stands in the text.
+/// A problem with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LocatedProblem {
-    /// From 1.
+    /// The line, from 1.
     pub line: usize,
-    /// In characters, from 1.
+    /// The column in characters, from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The problem.
     pub problem: Problem,
 }
 
@@ -66,10 +66,10 @@ impl LocatedProblem {
     }
 }
 
-/// Problems that a message lists; more are only counted.
-const MOST_SHOWN: usize = 20;
+/// The number of problems that a message lists; it counts the rest.
+const MAX_LISTED: usize = 20;
 
-/// One line a problem, in the form that editors and terminals make a link of.
+/// One line per problem, in the form `file:line:column` that editors and terminals turn into links.
 fn lines(file: &str, problems: &[LocatedProblem]) -> String {
     struct Line<'a>(&'a str, &'a LocatedProblem);
     impl fmt::Display for Line<'_> {
@@ -77,9 +77,9 @@ fn lines(file: &str, problems: &[LocatedProblem]) -> String {
             write!(f, "{}:{}:{}: {}", self.0, self.1.line, self.1.column, self.1.problem)
         }
     }
-    let mut lines: Vec<_> = problems.iter().take(MOST_SHOWN).map(|p| Line(file, p).to_string()).collect();
-    if problems.len() > MOST_SHOWN {
-        lines.push(format!("{file}: and {} more", problems.len() - MOST_SHOWN));
+    let mut lines: Vec<_> = problems.iter().take(MAX_LISTED).map(|p| Line(file, p).to_string()).collect();
+    if problems.len() > MAX_LISTED {
+        lines.push(format!("{file}: and {} more problems", problems.len() - MAX_LISTED));
     }
     lines.join("\n")
 }

@@ -1,13 +1,13 @@
-/// The picture's size and how it is shown.
+/// The size of the image, and how it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Film {
-    /// Pixels, 1 to 16384.
+    /// Pixels per row, 1 to 16384.
     pub width: u32,
-    /// Pixels, 1 to 16384.
+    /// Rows of pixels, 1 to 16384.
     pub height: u32,
-    /// Stops; for the screen and PNG only.
+    /// Exposure in stops, for the screen and PNG files.
     pub exposure: f64,
-    /// For the screen and PNG only.
+    /// The tone curve, for the screen and PNG files.
     pub tone_curve: ToneCurve,
 }
 
@@ -17,12 +17,12 @@ impl Default for Film {
     }
 }
 
-/// How linear radiance becomes what a screen shows.
+/// The map from linear radiance to display values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum ToneCurve {
-    /// The sRGB curve; clips at 1.
+    /// The sRGB transfer function; clips at 1.
     #[default]
     Srgb,
-    /// Rolls highlights off.
+    /// The sRGB transfer function with a shoulder that compresses highlights.
     Filmic,
 }

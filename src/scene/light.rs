@@ -4,40 +4,40 @@ use glam::DVec3;
 /// A source of light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
-    /// Unique among lights.
+    /// The name, unique among lights.
     pub name: String,
-    /// Its form and strength.
+    /// Shape and strength.
     pub emitter: Emitter,
 }
 
-/// The kinds of light sources.
+/// The shape and the strength of a light source.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Emitter {
-    /// An invisible point.
+    /// An invisible point with the same intensity in all directions.
     Point {
-        /// Scene units.
+        /// The position, scene units.
         position: DVec3,
-        /// W/sr.
+        /// Radiant intensity, W/sr.
         intensity: Rgb,
     },
-    /// A sphere that shines outwards.
+    /// A sphere that emits outwards.
     Sphere {
-        /// Scene units.
+        /// The center, scene units.
         center: DVec3,
-        /// Scene units, above 0.
+        /// The radius, scene units, above 0.
         radius: f64,
-        /// W/(sr m^2).
+        /// Radiance, W/(sr m^2).
         radiance: Rgb,
     },
-    /// A parallelogram that shines to the side of `edge_u x edge_v`.
+    /// A parallelogram that emits to the side of `edge_u x edge_v`.
     Quad {
-        /// Scene units.
+        /// The corner at (u, v) = (0, 0), scene units.
         corner: DVec3,
-        /// Scene units.
+        /// The edge along u, scene units.
         edge_u: DVec3,
-        /// Scene units.
+        /// The edge along v, scene units.
         edge_v: DVec3,
-        /// W/(sr m^2).
+        /// Radiance, W/(sr m^2).
         radiance: Rgb,
     },
 }

@@ -11,44 +11,56 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Texels that a picture may have: 8192 x 8192, which take 800 MB as a texture.
+/// The greatest number of texels of a texture: 8192 x 8192, which take 800 MB while they are decoded.
 const MAX_TEXELS: u64 = 1 << 26;
 
-/// Where a scene is from: the place that the paths in it are relative to.
+/// The location of a scene, which the paths in it are relative to.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub enum Location {
-    /// This scene file.
+    /// The scene file at this path.
     Disk(PathBuf),
     /// The built-in scene of this name.
     BuiltIn(String),
-    /// Nowhere yet: paths are relative to the working directory.
+    /// Not saved yet: paths are relative to the working directory.
     #[default]
     Unsaved,
 }
 
 impl Location {
     /// The bytes of a file that the scene names, an image or a `.bpt` file.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read.
     pub fn read(&self, relative: &str) -> io::Result<Cow<'static, [u8]>> {
         match self.path_on_disk(relative) {
             Some(path) => fs::read(path).map(Cow::Owned),
             None => embedded(&self.embedded_path(relative))
                 .map(Cow::Borrowed)
-                .ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "the program carries no such file")),
+                .ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "no such file among the built-in scenes")),
         }
     }
 
-    /// The patches in a `.bpt` file that the scene names, or a message that says why there are none.
+    /// The patches of a `.bpt` file that the scene names.
+    ///
+    /// # Errors
+    ///
+    /// A message, if the file cannot be read or is not a valid `.bpt` file.
     pub fn read_patches(&self, relative: &str) -> Result<Vec<ControlNet>, String> {
         let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
-        let text = str::from_utf8(&bytes).map_err(|e| format!("\"{relative}\" is no text: {e}"))?;
+        let text = str::from_utf8(&bytes).map_err(|e| format!("\"{relative}\" is not UTF-8 text: {e}"))?;
         read_bpt(text).map_err(|e| format!("\"{relative}\": {e}"))
     }
 
-    /// The decoded PNG or JPEG file that the scene names, or a message that says why there is none.
+    /// The decoded PNG or JPEG file that the scene names.
+    ///
+    /// # Errors
+    ///
+    /// A message, if the file cannot be read or decoded, or has too many pixels.
     pub fn read_picture(&self, relative: &str) -> Result<DynamicImage, String> {
         let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
         let reader = || ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
-        let damaged = |e: ImageError| format!("\"{relative}\" is no PNG or JPEG picture that can be read: {e}");
+        let damaged = |e: ImageError| format!("\"{relative}\" is not a valid PNG or JPEG image: {e}");
         let (width, height) = reader().map_err(|e| damaged(e.into()))?.into_dimensions().map_err(damaged)?;
         if u64::from(width) * u64::from(height) > MAX_TEXELS {
             return Err(format!("\"{relative}\" has {width} x {height} pixels, expected at most 8192 x 8192"));
@@ -56,7 +68,7 @@ impl Location {
         reader().map_err(|e| damaged(e.into()))?.decode().map_err(damaged)
     }
 
-    /// The file's path, unless the program carries the file with it.
+    /// The path of a file that the scene names; `None` for a file inside the program.
     pub(super) fn path_on_disk(&self, relative: &str) -> Option<PathBuf> {
         match self {
             Self::Disk(scene) => Some(folder(scene).join(relative)),
@@ -65,7 +77,7 @@ impl Location {
         }
     }
 
-    /// The path in the project of a file that a built-in scene names: all of them lie in `scenes/`.
+    /// The path in the project of a file that a built-in scene names, relative to `scenes/`.
     fn embedded_path(&self, relative: &str) -> String {
         let mut parts = vec!["scenes"];
         for part in relative.split('/') {
@@ -78,7 +90,7 @@ impl Location {
         parts.join("/")
     }
 
-    /// What names the scene on a command line, in quotes where a shell needs them.
+    /// The argument SCENE of a command line, in quotes where a shell needs them.
     pub fn argument(&self) -> String {
         let name = match self {
             Self::Disk(path) => path.display().to_string(),
@@ -89,7 +101,7 @@ impl Location {
         if plain { name } else { format!("'{}'", name.replace('\'', r"'\''")) }
     }
 
-    /// For messages and titles: the path as given, or the example's name.
+    /// The name of the scene in messages and titles: the path, or the name of the built-in scene.
     pub fn label(&self) -> String {
         match self {
             Self::Disk(path) => path.display().to_string(),
@@ -99,15 +111,17 @@ impl Location {
     }
 }
 
-/// `path` as seen from `folder`; absolute where there is no such way. Uses `/` on every system.
+/// The path relative to `folder`, or absolute if there is none. Separated by `/` on every system.
 pub(super) fn relative_to(folder: &Path, path: &Path) -> io::Result<String> {
     let path = std::path::absolute(path)?;
-    // The folder may be reached through links, which make a way up with `..` lead elsewhere.
+    // Resolves symbolic links, from which `..` leads elsewhere.
     let (path, folder) = match (path.canonicalize(), folder.canonicalize()) {
         (Ok(path), Ok(folder)) => (path, folder),
         _ => (path, std::path::absolute(folder)?),
     };
     let relative = pathdiff::diff_paths(&path, folder).unwrap_or(path);
-    let text = relative.to_str().ok_or_else(|| io::Error::other("a path that is no Unicode cannot be saved"))?;
+    let text = relative
+        .to_str()
+        .ok_or_else(|| io::Error::other("the path is not valid Unicode, which a scene file cannot hold"))?;
     Ok(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
 }

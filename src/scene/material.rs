@@ -1,81 +1,81 @@
 use super::TextureUse;
 use crate::math::Rgb;
 
-/// How a surface scatters light.
+/// A material: how a surface scatters light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Unique among materials.
+    /// The name, unique among materials.
     pub name: String,
-    /// The scattering.
+    /// The scattering model.
     pub model: MaterialModel,
-    /// Bumps that tilt the normal, if any.
+    /// A map that tilts the shading normal, if any.
     pub relief: Option<Relief>,
 }
 
-/// The kinds of scattering.
+/// The scattering model of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaterialModel {
-    /// Lambert's law.
+    /// Lambertian reflection.
     Diffuse {
-        /// Part of the light that is reflected.
+        /// The reflectance, 0 to 1.
         albedo: Color,
     },
-    /// Energy-normalised modified Phong model.
+    /// The energy-normalised modified Phong model \[LafortuneWillems94\].
     Phong {
-        /// Part reflected diffusely.
+        /// The diffuse reflectance, 0 to 1.
         albedo: Color,
-        /// Part reflected about the mirror direction.
+        /// The greatest reflectance of the lobe around the mirror direction, 0 to 1.
         specular: Color,
-        /// Sharpness of the lobe, at least 0.
+        /// The Phong exponent, at least 0.
         exponent: f64,
     },
     /// A mirror over a diffuse base.
     Polished {
-        /// Part reflected diffusely.
+        /// The diffuse reflectance, 0 to 1.
         albedo: Color,
-        /// Part mirrored.
+        /// The mirror reflectance, 0 to 1.
         reflectance: Color,
     },
     /// A perfect mirror.
     Mirror {
-        /// Part mirrored.
+        /// The mirror reflectance, 0 to 1.
         reflectance: Color,
     },
     /// A smooth dielectric interface; the normal points to the outside.
     Glass {
-        /// Index of refraction of the inside against air.
+        /// The index of refraction of the inside, relative to air.
         ior: f64,
-        /// Of what is transmitted, once for each crossing.
+        /// The factor of transmitted light, once per crossing, 0 to 1.
         tint: Color,
-        /// Beer-Lambert, per scene unit, inside.
+        /// The Beer-Lambert absorption coefficient of the inside, per scene unit.
         absorption: Rgb,
     },
 }
 
-/// A colour that may vary over the surface.
+/// A colour, constant or from a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Color {
-    /// The same everywhere.
+    /// A constant colour.
     Constant(Rgb),
-    /// From an image.
+    /// The colours of a texture.
     Texture(TextureUse),
 }
 
-/// Bumps that move nothing and tilt the normal.
+/// A map that tilts the shading normal and displaces nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Relief {
     /// A tangent-space normal map.
     Normal {
-        /// The map.
+        /// The texture of the map.
         map: TextureUse,
-        /// Scales red and green.
+        /// The factor of red and green.
         strength: f64,
     },
     /// A height map.
     Height {
-        /// The map.
+        /// The texture of the map.
         map: TextureUse,
-        /// Height of white over black, scene units.
+        /// The height of white above black, scene units.
         depth: f64,
     },
 }

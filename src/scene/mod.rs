@@ -1,11 +1,24 @@
-//! What the user describes: plain data that can be cloned, compared, loaded and saved. It knows nothing of rendering.
+//! The scene as the user describes it: plain data that can be cloned, compared, loaded and saved. Knows nothing of rendering.
 //!
-//! The file format is one TOML file; every type here mirrors one table of it. [`SceneFile`] opens and saves;
-//! [`validate`] checks a scene that a file or a window has made; [`Location`] finds the files that a scene names.
+//! A scene file is one TOML file; each type mirrors a table of it.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `camera`, `film`, `render`, `texture`, `material`, `light`, `object`, `bezier` | the tables of a scene |
+//! | `data` | [`Scene`], all tables |
+//! | `problem` | [`Problem`]: one error in a scene, by the path of the value |
+//! | `error` | [`SceneError`], [`LocatedProblem`]: errors with line and column |
+//! | `built_in` | the scenes inside the program |
+//! | `location` | [`Location`]: finds the files that a scene names |
+//! | `validate/` | [`validate()`]: the errors of a scene, from a file or from the window |
+//! | `load/`, `save/` | from text to a scene, and back |
+//! | `file/` | [`SceneFile`]: opens and saves scenes with the files that they name |
+//! | `surface_export` | [`SurfaceExport`]: patches as `.obj` or `.bpt` |
 
 mod bezier;
 mod built_in;
 mod camera;
+mod data;
 mod error;
 mod file;
 mod film;
@@ -24,6 +37,7 @@ mod validate;
 pub use bezier::{Bezier, Transform};
 pub use built_in::{BuiltInScene, built_in_scenes};
 pub use camera::Camera;
+pub use data::Scene;
 pub use error::{LocatedProblem, SceneError};
 pub use file::SceneFile;
 pub use film::{Film, ToneCurve};
@@ -36,24 +50,3 @@ pub use render::Render;
 pub use surface_export::{SurfaceExport, SurfaceFormat};
 pub use texture::{Encoding, Texture, TextureUse};
 pub use validate::validate;
-
-/// Everything there is to see, by whom, and how it is shown.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Scene {
-    /// For the window's title and for people; may be empty.
-    pub name: String,
-    /// The eye.
-    pub camera: Camera,
-    /// The picture.
-    pub film: Film,
-    /// What light transport is computed.
-    pub render: Render,
-    /// Images that materials refer to by name.
-    pub textures: Vec<Texture>,
-    /// Surfaces' looks, that objects refer to by name.
-    pub materials: Vec<Material>,
-    /// Where light comes from.
-    pub lights: Vec<Light>,
-    /// The surfaces.
-    pub objects: Vec<Object>,
-}

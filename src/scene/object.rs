@@ -1,45 +1,45 @@
 use super::Bezier;
 use glam::DVec3;
 
-/// A surface with a material.
+/// An object: a shape with a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
-    /// Unique among objects.
+    /// The name, unique among objects.
     pub name: String,
-    /// Name of its material.
+    /// The name of its material.
     pub material: String,
-    /// Its form.
+    /// The shape.
     pub shape: Shape,
 }
 
-/// The kinds of surfaces.
+/// The shape of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A parallelogram.
     Quad {
-        /// (u, v) = (0, 0).
+        /// The corner at (u, v) = (0, 0), scene units.
         corner: DVec3,
-        /// Where u runs.
+        /// The edge along u, scene units.
         edge_u: DVec3,
-        /// Where v runs.
+        /// The edge along v, scene units.
         edge_v: DVec3,
     },
     /// A sphere.
     Sphere {
-        /// Scene units.
+        /// The center, scene units.
         center: DVec3,
-        /// Scene units, above 0.
+        /// The radius, scene units, above 0.
         radius: f64,
     },
     /// An unbounded plane.
     Plane {
-        /// Any point of it.
+        /// A point of the plane, scene units.
         point: DVec3,
-        /// Points to its front; any length but 0.
+        /// The normal on the front side; any length but 0.
         normal: DVec3,
-        /// Where u runs; `None`: the x axis laid into the plane, or z where the normal is along x.
+        /// The direction of u, projected into the plane; `None` for the x axis, or z if the normal is along x.
         u_axis: Option<DVec3>,
     },
-    /// Bicubic Bezier patches that move together.
+    /// Bicubic Bezier patches.
     Bezier(Bezier),
 }

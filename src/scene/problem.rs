@@ -1,11 +1,11 @@
 use std::fmt;
 
-/// One thing that is wrong with a scene.
+/// An error in a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// Where, in the words of the file format: `object[2].radius`; empty for the scene as a whole.
+    /// The path of the value in the file format, like `object[2].radius`; empty for the scene as a whole.
     pub path: String,
-    /// What was found and what was expected, with a suggestion where one is near.
+    /// What was found and what is expected, with a suggestion if there is one.
     pub message: String,
 }
 
@@ -15,15 +15,15 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Whether `path` names `ancestor` itself or something inside it.
+/// Whether `path` is `ancestor` or the path of something inside it.
 pub(super) fn is_within(path: &str, ancestor: &str) -> bool {
     path.strip_prefix(ancestor)
         .is_some_and(|rest| rest.is_empty() || ancestor.is_empty() || rest.starts_with(['.', '[']))
 }
 
-/// A suggestion to append to a message: the known name nearest to `name`, or nothing where none is near.
+/// A suggestion for the end of a message: the known name nearest to `name`, or empty if none is near.
 pub(super) fn suggestion<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    // One edit for every three letters is what typing errors make; more would suggest unrelated words.
+    // Typing errors make about one edit in three letters; a larger limit would suggest unrelated words.
     let limit = 1 + name.chars().count() / 3;
     known
         .into_iter()

@@ -1,11 +1,11 @@
 use crate::math::Rgb;
 
-/// What light transport is computed.
+/// The limits of light transport.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Render {
-    /// Scattering events between light and eye on the longest path; 1 is direct light alone.
+    /// The greatest number of scattering events on a path between light and camera; 1 is direct light alone.
     pub max_bounces: u32,
-    /// Radiance of what a ray sees when it leaves the scene.
+    /// The radiance along rays that leave the scene.
     pub background: Rgb,
 }
 

@@ -2,25 +2,38 @@ use super::{Object, Shape};
 use crate::geometry::bezier::{ControlNet, QuadMesh, write_bpt};
 use std::{num::NonZeroUsize, path::Path};
 
-/// Bezier patches of a scene where they stand in the world, for other programs.
+/// The Bezier patches of objects in world space, for other programs.
+///
+/// ```
+/// use patchlight::scene::{SceneFile, SurfaceExport, SurfaceFormat};
+///
+/// let file = SceneFile::built_in("teapot")?;
+/// let surface = SurfaceExport::of(&file.scene.objects).expect("the teapot has patches");
+/// let obj = surface.text(SurfaceFormat::Obj, SurfaceExport::STEPS);
+/// assert!(obj.starts_with("o ") && obj.lines().any(|line| line.starts_with("f ")));
+/// // 32 patches as control points: the number of patches, then 17 lines each.
+/// let bpt = surface.text(SurfaceFormat::Bpt, SurfaceExport::STEPS);
+/// assert_eq!(bpt.lines().count(), 1 + 32 * 17);
+/// # Ok::<(), patchlight::scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceExport {
-    /// Of the objects that the patches are from.
+    /// The names of the objects, joined by `+`.
     pub name: String,
     nets: Vec<ControlNet>,
 }
 
-/// What a surface can be written as.
+/// The file format of an exported surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurfaceFormat {
-    /// A Wavefront mesh.
+    /// A Wavefront OBJ mesh.
     Obj,
-    /// The control points.
+    /// Control points as `.bpt`.
     Bpt,
 }
 
 impl SurfaceFormat {
-    /// By the file's extension; `None` where there is no such format.
+    /// The format by the extension of a file name; `None` for other extensions.
     pub fn of(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_ascii_lowercase();
         match extension.to_str()? {
@@ -32,10 +45,10 @@ impl SurfaceFormat {
 }
 
 impl SurfaceExport {
-    /// Quads along each side of a patch, unless somebody wants another number.
+    /// The default number of quads along each side of a patch.
     pub const STEPS: NonZeroUsize = NonZeroUsize::new(16).unwrap();
 
-    /// The patches of those objects that have any; `None` where none has.
+    /// The patches of all Bezier objects; `None` if there are none.
     pub fn of<'a>(objects: impl IntoIterator<Item = &'a Object>) -> Option<Self> {
         let (mut names, mut nets) = (Vec::new(), Vec::new());
         for object in objects {
@@ -46,7 +59,7 @@ impl SurfaceExport {
         (!names.is_empty()).then(|| Self { name: names.join("+"), nets })
     }
 
-    /// The text of a file; a mesh has `steps` quads along each side of a patch.
+    /// The text of the file. A mesh has `steps` quads along each side of each patch.
     pub fn text(&self, format: SurfaceFormat, steps: NonZeroUsize) -> String {
         match format {
             SurfaceFormat::Obj => QuadMesh::new(&self.nets, steps.get()).to_obj(&self.name),

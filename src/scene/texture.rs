@@ -1,31 +1,31 @@
 use glam::DVec2;
 
-/// An image that materials use.
+/// An image for materials.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// Unique among textures.
+    /// The name, unique among textures.
     pub name: String,
-    /// Path of a PNG or JPEG file, relative to the scene file.
+    /// The path of a PNG or JPEG file, relative to the scene file.
     pub file: String,
-    /// How the file's numbers encode colour.
+    /// The encoding of the file's values.
     pub encoding: Encoding,
 }
 
-/// How the numbers in an image file encode colour.
+/// The encoding of the values in an image file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Encoding {
-    /// The sRGB curve.
+    /// The sRGB transfer function.
     #[default]
     Srgb,
-    /// Proportional to light, or no colour at all.
+    /// Linear: values proportional to light, or no colours.
     Linear,
 }
 
-/// A texture as a material uses it.
+/// A reference from a material to a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureUse {
-    /// Name of the texture.
+    /// The name of the texture.
     pub texture: String,
-    /// Multiplies (u, v).
+    /// The factors of u and v.
     pub scale: DVec2,
 }

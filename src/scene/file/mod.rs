@@ -1,3 +1,5 @@
+//! Scenes with the files that they name: opening, built-in scenes, saving.
+
 use super::{
     LocatedProblem, Location, Problem, Scene, SceneError, Shape, built_in::embedded, built_in_scenes, load,
     location::relative_to, problem::suggestion, save,
@@ -8,33 +10,45 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A scene and where it is from.
+/// A scene with its location.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct SceneFile {
-    /// What is to be seen.
+    /// The scene.
     pub scene: Scene,
-    /// What the paths in it are relative to.
+    /// The location that the paths in the scene are relative to.
     pub location: Location,
 }
 
 impl SceneFile {
-    /// Reads a scene file and checks all of it, and that the files it names are there.
+    /// Reads a scene file, validates it and checks the files that it names.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read or is not a valid scene; the error then lists all problems.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let bytes = fs::read(path).map_err(|source| SceneError::Read { file: path.to_owned(), source })?;
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bpt")) {
             return Err(SceneError::ControlPoints { file: path.to_owned() });
         }
         let location = Location::Disk(path.to_owned());
-        let text = String::from_utf8(bytes).map_err(|e| no_text(&e, &location))?;
+        let text = String::from_utf8(bytes).map_err(|e| not_utf8(&e, &location))?;
         Self::parse(&text, location)
     }
 
-    /// The scene that people name: a file, or the built-in scene of this name where there is no such file.
+    /// The scene of a command line: the scene file at this path, or else the built-in scene of this name.
+    ///
+    /// # Errors
+    ///
+    /// If there is neither, or the file is not a valid scene.
     pub fn find(name: &Path) -> Result<Self, SceneError> {
         Self::find_from(Path::new(""), name)
     }
 
-    /// The same, a file's path relative to a folder.
+    /// The scene file at a path relative to `folder`, or else the built-in scene of this name.
+    ///
+    /// # Errors
+    ///
+    /// If there is neither, or the file is not a valid scene.
     pub fn find_from(folder: &Path, name: &Path) -> Result<Self, SceneError> {
         let path = folder.join(name);
         let names_a_file = path.exists() || name.extension().is_some() || name.components().count() > 1;
@@ -45,6 +59,10 @@ impl SceneFile {
     }
 
     /// The built-in scene of this name.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such scene.
     pub fn built_in(name: &str) -> Result<Self, SceneError> {
         let names = built_in_scenes().iter().map(|scene| scene.name);
         let found = names.clone().find(|known| *known == name);
@@ -58,11 +76,15 @@ impl SceneFile {
             });
         };
         let location = Location::BuiltIn(name.to_owned());
-        let text = String::from_utf8(bytes.to_vec()).map_err(|e| no_text(&e, &location))?;
+        let text = String::from_utf8(bytes.to_vec()).map_err(|e| not_utf8(&e, &location))?;
         Self::parse(&text, location)
     }
 
-    /// The scene that a text describes, as if it stood at `location`.
+    /// The scene of a text; paths in it are relative to `location`.
+    ///
+    /// # Errors
+    ///
+    /// If the text is not a valid scene.
     pub fn parse(text: &str, location: Location) -> Result<Self, SceneError> {
         match load::parse(text, &location) {
             Ok(scene) => Ok(Self { scene, location }),
@@ -70,11 +92,14 @@ impl SceneFile {
         }
     }
 
-    /// Writes the scene to `path`, whole or not at all, and is from then on the scene of that file.
+    /// Writes the scene to `path`, whole or not at all, and changes the location to that file.
     ///
-    /// Paths in the scene are written so that they lead to the same files from the new place. Files that only the
-    /// program carries are written beside the scene. Patches that no longer equal their `.bpt` file are written into
-    /// the scene.
+    /// Paths in the scene are rewritten so that they name the same files from the new location. Files inside the program are
+    /// copied beside the scene. Patches that differ from their `.bpt` file are written into the scene file.
+    ///
+    /// # Errors
+    ///
+    /// If the scene file or a copied file cannot be written.
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
         let failed = |source| SceneError::Write { file: path.to_owned(), source };
         let mut saved = self.scene.clone();
@@ -98,15 +123,15 @@ impl SceneFile {
         Ok(())
     }
 
-    /// The path that leads from the scene at `path` to the file that `relative` names now. Adds what must be written
-    /// to make it so.
+    /// The path, from a scene file at `path`, of the file that `relative` names from the present location. Adds to `carried` a
+    /// file that has to be copied.
     fn moved(&self, relative: &str, path: &Path, carried: &mut Vec<(PathBuf, &'static [u8])>) -> io::Result<String> {
         let folder = folder(path);
         if relative.is_empty() {
             return Ok(String::new());
         }
         if Path::new(relative).is_absolute() {
-            // What lies beside the scene or below goes with it when the folder is moved.
+            // Files beside or below the scene get relative paths, so that the folder can be moved as a whole.
             let is_below = std::path::absolute(&folder).is_ok_and(|folder| Path::new(relative).starts_with(folder));
             return if is_below { relative_to(&folder, Path::new(relative)) } else { Ok(relative.to_owned()) };
         }
@@ -121,7 +146,7 @@ impl SceneFile {
     }
 }
 
-/// A free name in `folder` for a carried file; the name of one that holds the same bytes serves as well.
+/// A free name in `folder` for a copied file, or the name of a file with the same bytes.
 fn beside(
     folder: &Path,
     relative: &str,
@@ -145,13 +170,13 @@ fn beside(
             Err(e) => return Err(e),
         }
     }
-    Err(io::Error::other("no free name"))
+    Err(io::Error::other("there is no free file name"))
 }
 
-fn no_text(error: &std::string::FromUtf8Error, location: &Location) -> SceneError {
+fn not_utf8(error: &std::string::FromUtf8Error, location: &Location) -> SceneError {
     let valid = error.utf8_error().valid_up_to();
     let text = String::from_utf8_lossy(&error.as_bytes()[..valid]);
-    let problem = Problem { path: String::new(), message: "the file is no UTF-8 text from here on".to_owned() };
+    let problem = Problem { path: String::new(), message: "the file is not valid UTF-8 from here on".to_owned() };
     SceneError::Invalid { file: location.label(), problems: vec![LocatedProblem::at(&text, text.len(), problem)] }
 }
 

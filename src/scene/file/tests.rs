@@ -89,6 +89,6 @@ fn bytes_that_are_no_text_are_located() {
     let path = dir.path().join("a.toml");
     fs::write(&path, b"version = 1\nname = \"\xff\"\n").unwrap();
     let message = SceneFile::open(&path).unwrap_err().to_string();
-    assert!(message.ends_with("a.toml:2:9: the file is no UTF-8 text from here on"), "{message}");
+    assert!(message.ends_with("a.toml:2:9: the file is not valid UTF-8 from here on"), "{message}");
     assert!(SceneFile::open(dir.path()).unwrap_err().to_string().contains("cannot be read"));
 }

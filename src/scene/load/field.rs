@@ -1,4 +1,4 @@
-//! Values that a key can have.
+//! The types of values that a key can have.
 
 use super::notes::Notes;
 use crate::{
@@ -9,16 +9,16 @@ use crate::{
 use glam::{DVec2, DVec3};
 use toml::de::DeValue;
 
-/// What can be read from one TOML value.
+/// A type that can be read from a TOML value.
 pub(super) trait Field: Sized {
-    /// Names the kind of value in messages.
+    /// The kind of value, in messages.
     const EXPECTED: &'static str;
 
-    /// The value, or `None` after reporting at `path` why there is none.
+    /// The value; `None` after reporting a problem at `path`.
     fn read(value: &DeValue<'_>, path: &str, notes: &mut Notes) -> Option<Self>;
 }
 
-/// Reports that something else was found than expected.
+/// Reports the difference between the found and the expected value; always `None`.
 pub(super) fn mismatch<T>(value: &DeValue<'_>, path: &str, expected: &str, notes: &mut Notes) -> Option<T> {
     notes.add(path, format!("found {}, expected {expected}", describe(value)));
     None
@@ -37,7 +37,7 @@ fn describe(value: &DeValue<'_>) -> String {
     }
 }
 
-/// The text of a decimal number, for `f32` and `f64` to read each without a second rounding.
+/// The text of a decimal number, which `f32` and `f64` each parse with one rounding; `None` for other values.
 fn decimal(value: &DeValue<'_>) -> Option<String> {
     match value {
         DeValue::Integer(n) if n.radix() == 10 => Some(n.as_str().to_owned()),
@@ -93,7 +93,7 @@ impl Field for String {
     }
 }
 
-/// One of several words.
+/// The meaning of one of several words.
 fn word<T: Copy>(value: &DeValue<'_>, path: &str, words: &[(&str, T)], notes: &mut Notes) -> Option<T> {
     let known = words.iter().map(|(word, _)| *word);
     let expected = known.clone().map(|w| format!("\"{w}\"")).collect::<Vec<_>>().join(" or ");
@@ -130,7 +130,7 @@ impl<T: Field> Field for Vec<T> {
             notes.mark(&path, item.span());
             T::read(item.get_ref(), &path, notes)
         });
-        // Reads them all before it gives up, so that all problems are reported.
+        // Reads all items, so that all problems are reported.
         read.collect::<Vec<_>>().into_iter().collect()
     }
 }

@@ -1,4 +1,12 @@
-//! From text to a scene, with every problem that can be found and where it stands.
+//! From text to a scene, with all problems and their positions.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod` | the steps: TOML, tables, files, validation |
+//! | `tables` | the tables of the format, each read into the type that mirrors it |
+//! | `table` | `Table`: a TOML table that reports missing and unknown keys |
+//! | `field` | `Field`: types that can be the value of a key |
+//! | `notes` | `Notes`: the positions of values, and the problems |
 
 mod field;
 mod notes;
@@ -12,7 +20,11 @@ use std::sync::Arc;
 pub(super) use tables::VERSION;
 use toml::de::DeTable;
 
-/// The scene that a text describes. Reads the files that it names, to see that they are there.
+/// The scene of a text. Reads the files that the scene names.
+///
+/// # Errors
+///
+/// All problems of the text and of these files, in the order of the text.
 pub(super) fn parse(text: &str, location: &Location) -> Result<Scene, Vec<LocatedProblem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
@@ -31,8 +43,8 @@ fn syntax_problem(text: &str, error: &toml::de::Error) -> LocatedProblem {
     let found = text.get(span.clone()).unwrap_or_default();
     let rest_of_line = text.get(span.start..).unwrap_or_default().lines().next().unwrap_or_default().trim();
     let message = match error.message().trim() {
-        "duplicate key" => format!("the key `{found}` stands here for the second time"),
-        // The reader takes what is not there for a string without quotes.
+        "duplicate key" => format!("found the key `{found}` for the second time"),
+        // The TOML parser takes a missing value for a string without quotes.
         said if said.starts_with("string values must be quoted") && rest_of_line.is_empty() => {
             "expected a value after `=`, found none".to_owned()
         }
@@ -41,7 +53,7 @@ fn syntax_problem(text: &str, error: &toml::de::Error) -> LocatedProblem {
     LocatedProblem::at(text, span.start, Problem { path: String::new(), message })
 }
 
-/// Adds what [`validate`] finds, without what only follows from a value that could not be read.
+/// Adds the problems of [`validate`], except those that follow from a value that could not be read.
 fn add_invalid(scene: &Scene, notes: &mut Notes) {
     if ["texture", "material", "light", "object"].iter().any(|list| notes.has_problem_at(list)) {
         return;

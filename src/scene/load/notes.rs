@@ -1,7 +1,7 @@
 use crate::scene::{LocatedProblem, Problem};
 use std::{collections::BTreeMap, ops::Range};
 
-/// Where the values stand in the text, and what is wrong with them.
+/// The positions of values in the text, and the problems with them.
 #[derive(Default)]
 pub(super) struct Notes {
     spans: BTreeMap<String, Range<usize>>,
@@ -9,7 +9,7 @@ pub(super) struct Notes {
 }
 
 impl Notes {
-    /// Remembers where the value at `path` stands.
+    /// Records the position of the value at `path`.
     pub(super) fn mark(&mut self, path: &str, span: Range<usize>) {
         self.spans.insert(path.to_owned(), span);
     }
@@ -27,7 +27,7 @@ impl Notes {
         self.problems.iter().map(|p| p.path.as_str())
     }
 
-    /// All problems in the order of the text; `Ok` when there is none.
+    /// `Ok` without problems; else all problems in the order of the text.
     pub(super) fn finish(self, text: &str) -> Result<(), Vec<LocatedProblem>> {
         if self.problems.is_empty() {
             return Ok(());
@@ -40,7 +40,7 @@ impl Notes {
     }
 }
 
-/// Where the value at `path` stands, or else the innermost thing around it that stands somewhere.
+/// The position of the value at `path`, or of the innermost table or list around it that has a position.
 fn offset_of(spans: &BTreeMap<String, Range<usize>>, path: &str) -> usize {
     let mut path = path;
     loop {

@@ -2,7 +2,7 @@ use super::{field::Field, notes::Notes};
 use crate::scene::problem::suggestion;
 use toml::{Spanned, de::DeTable};
 
-/// A TOML table that knows which of its keys were asked for; the others are unknown.
+/// A TOML table that records the keys that are read; all other keys are unknown.
 pub(super) struct Table<'a> {
     entries: &'a DeTable<'a>,
     path: String,
@@ -16,7 +16,7 @@ impl<'a> Table<'a> {
         Self { entries, path: path.to_owned(), known: Vec::new(), accepts_all: false, notes }
     }
 
-    /// The value of `key`, or `fallback` with a problem where it is missing or wrong.
+    /// The value of `key`. Reports a problem and returns `fallback` if it is missing or invalid.
     pub(super) fn required<T: Field>(&mut self, key: &'static str, fallback: T) -> T {
         if !self.has(key) {
             self.add(format!("the key `{key}` is missing, expected {}", T::EXPECTED));
@@ -24,12 +24,12 @@ impl<'a> Table<'a> {
         self.optional(key, fallback)
     }
 
-    /// The value of `key`, or `default`; with a problem where it is wrong.
+    /// The value of `key`, or `default` if it is missing. Reports a problem and returns `default` if it is invalid.
     pub(super) fn optional<T: Field>(&mut self, key: &'static str, default: T) -> T {
         self.maybe(key).unwrap_or(default)
     }
 
-    /// The value of `key`, where there is one; with a problem where it is wrong.
+    /// The value of `key`; `None` if it is missing, or after reporting a problem if it is invalid.
     pub(super) fn maybe<T: Field>(&mut self, key: &'static str) -> Option<T> {
         self.known.push(key);
         let value = self.entries.get(key)?;
@@ -38,7 +38,7 @@ impl<'a> Table<'a> {
         T::read(value.get_ref(), &path, self.notes)
     }
 
-    /// Whether the text has this key.
+    /// Whether the table has this key.
     pub(super) fn has(&self, key: &str) -> bool {
         self.entries.contains_key(key)
     }
@@ -54,12 +54,12 @@ impl<'a> Table<'a> {
         self.notes.add(&path, message);
     }
 
-    /// Reports no key as unknown: for a table of unknown type, whose keys cannot be judged.
+    /// Accepts all keys: for a table of unknown type, whose keys are unknown too.
     pub(super) fn accept_all(&mut self) {
         self.accepts_all = true;
     }
 
-    /// Reports every key that nobody asked for.
+    /// Reports the unknown keys.
     pub(super) fn finish(self) {
         if self.accepts_all {
             return;

@@ -22,12 +22,12 @@ pub(in crate::scene) const VERSION: u32 = 1;
 const BLACK: Color = Color::Constant(Rgb::ZERO);
 const WHITE: Color = Color::Constant(Rgb::ONE);
 
-/// The whole file. What cannot be read is reported and replaced by a default.
+/// The whole file. Values that cannot be read are reported and replaced by defaults.
 pub(super) fn scene(root: &DeTable<'_>, notes: &mut Notes) -> Scene {
     let mut t = Table::new(root, "", notes);
     let version = t.required("version", VERSION);
     if version != VERSION {
-        t.add_at("version", format!("found {version}, expected {VERSION}, the only version there is"));
+        t.add_at("version", format!("found {version}, expected {VERSION}, the only version of the format"));
     }
     let scene = Scene {
         name: t.optional("name", String::new()),
@@ -43,7 +43,7 @@ pub(super) fn scene(root: &DeTable<'_>, notes: &mut Notes) -> Scene {
     scene
 }
 
-/// Lets a type be read from a table by a function of its keys.
+/// Implements [`Field`] for a type that a function reads from a table.
 macro_rules! table_field {
     ($type:ty, $expected:literal, $read:ident) => {
         impl Field for $type {
@@ -112,7 +112,7 @@ fn texture(t: &mut Table<'_>) -> Texture {
     }
 }
 
-/// Reads the key `type` and then what this type has; reports a type that is none of `types`.
+/// Reads the key `type` and then the keys of this type; `None` after reporting a type that is not among `types`.
 fn by_type<T>(t: &mut Table<'_>, types: &[&str], read: impl Fn(&str, &mut Table<'_>) -> Option<T>) -> Option<T> {
     let given = t.has("type");
     let found: String = t.maybe("type").unwrap_or_default();
@@ -159,10 +159,10 @@ fn material_model(kind: &str, t: &mut Table<'_>) -> Option<MaterialModel> {
     })
 }
 
-/// A normal map, as `normal_map` has it.
+/// The value of `normal_map`.
 struct NormalMap(TextureUse, f64);
 
-/// A height map, as `height_map` has it.
+/// The value of `height_map`.
 struct HeightMap(TextureUse, f64);
 
 fn normal_map(t: &mut Table<'_>) -> NormalMap {
@@ -175,7 +175,7 @@ fn height_map(t: &mut Table<'_>) -> HeightMap {
 
 fn relief(t: &mut Table<'_>) -> Option<Relief> {
     if t.has("normal_map") && t.has("height_map") {
-        t.add_at("height_map", "a material has a `normal_map` or a `height_map`, not both".to_owned());
+        t.add_at("height_map", "a material can have a `normal_map` or a `height_map`, not both".to_owned());
     }
     let normal = t.maybe("normal_map").map(|NormalMap(map, strength)| Relief::Normal { map, strength });
     let height = t.maybe("height_map").map(|HeightMap(map, depth)| Relief::Height { map, depth });
@@ -255,7 +255,7 @@ fn bezier(t: &mut Table<'_>) -> Bezier {
     let mut file = t.maybe("file");
     match (t.has("patches"), t.has("file")) {
         (true, true) => {
-            t.add_at("file", "a Bezier object has `patches` or a `file`, not both".to_owned());
+            t.add_at("file", "a Bezier object can have `patches` or a `file`, not both".to_owned());
             file = None;
         }
         (false, false) => t.add("one of the keys `patches` and `file` is missing".to_owned()),

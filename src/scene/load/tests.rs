@@ -93,7 +93,7 @@ fn mistakes_are_named() {
         ),
         (
             "[[material]]\nname = \"m\"\ntype = \"polished\"\nalbedo = [0.5, 0.5, 0.5]\nreflectance = [0.6, 0, 0]\n",
-            "5:15: material[0].reflectance: found [0.6, 0, 0], which with albedo [0.5, 0.5, 0.5] makes more than 1",
+            "5:15: material[0].reflectance: found [0.6, 0, 0]; with albedo [0.5, 0.5, 0.5] the sum exceeds 1",
         ),
         ("[[material]]\nname = \"m\"\ntype = \"diffuse\"\n", "1:1: material[0]: the key `albedo` is missing"),
         (
@@ -114,10 +114,10 @@ fn mistakes_are_named() {
             "5:8: object[0].file: \"no.bpt\" cannot be read",
         ),
         ("[film]\nwidth = \n", "2:9: expected a value after `=`, found none"),
-        ("[film]\nwidth = 1\nwidth = 2\n", "3:1: the key `width` stands here for the second time"),
+        ("[film]\nwidth = 1\nwidth = 2\n", "3:1: found the key `width` for the second time"),
         (
             "[[texture]]\nname = \"t\"\nfile = \"report.toml\"\n",
-            "3:8: texture[0].file: \"report.toml\" is no PNG or JPEG picture that can be read",
+            "3:8: texture[0].file: \"report.toml\" is not a valid PNG or JPEG image",
         ),
     ];
     for (text, expected) in cases {

@@ -1,11 +1,16 @@
-//! From a scene to the text that describes it, laid out for people to edit.
+//! From a scene to the text of a scene file, laid out for people to edit.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod` | the tables of a scene |
+//! | `value` | `Value`: types as TOML text; `Text`: the text so far |
 
 mod value;
 
 use super::{Bezier, Emitter, Light, Material, MaterialModel, Object, Relief, Scene, Shape, Texture, Transform};
 use value::{Text, Value, net};
 
-/// The text of a scene. Loading it gives the same scene; Bezier objects with a `file` keep it instead of their patches.
+/// The text of a scene, which loads as the same scene. Bezier objects with a `file` have its path instead of patches.
 pub(super) fn text(scene: &Scene) -> String {
     let mut t = Text::default();
     t.key("version", &super::load::VERSION);
@@ -68,7 +73,7 @@ fn model(model: &MaterialModel, t: &mut Text) {
     }
 }
 
-/// The key `type` and those that come with it.
+/// The key `type` and the keys of this type.
 fn typed(t: &mut Text, kind: &'static str, keys: &[(&str, &dyn Value)]) {
     t.key("type", &kind);
     for (key, value) in keys {

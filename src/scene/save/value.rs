@@ -5,13 +5,13 @@ use crate::{
 };
 use glam::{DVec2, DVec3};
 
-/// What can stand behind a key.
+/// A type that can be the value of a key.
 pub(super) trait Value {
-    /// TOML that reads as this value again.
+    /// The TOML text that reads as this value.
     fn toml(&self) -> String;
 }
 
-/// Text in the making.
+/// The text of a scene file so far.
 #[derive(Default)]
 pub(super) struct Text(String);
 
@@ -31,7 +31,7 @@ impl Text {
         self.0 += &format!("{key} = {}\n", inline(entries));
     }
 
-    /// A list of one item after another, each on its own lines.
+    /// A list with each item on its own lines.
     pub(super) fn list(&mut self, key: &str, items: impl Iterator<Item = String>) {
         self.0 += &format!("{key} = [\n");
         items.for_each(|item| self.0 += &format!("  {item},\n"));
@@ -48,13 +48,13 @@ fn inline(entries: &[(&str, &dyn Value)]) -> String {
     format!("{{ {} }}", entries.join(", "))
 }
 
-/// A control net, one line for each of its rows.
+/// The TOML text of a control net, one line per row.
 pub(super) fn net(net: &ControlNet) -> String {
     let rows = net.points.map(|row| format!("[{}]", row.map(|p| p.toml()).join(", ")));
     format!("[ {} ]", rows.join(",\n    "))
 }
 
-// Debug prints the shortest decimal that reads as the same number, and a point or an exponent, as TOML asks for.
+// Debug prints the shortest decimal that reads as the same number, with the point or exponent that TOML requires.
 impl Value for f64 {
     fn toml(&self) -> String {
         format!("{self:?}")

@@ -4,16 +4,16 @@ use crate::{
 };
 use glam::DVec3;
 
-/// The largest coordinate. Cubes of it, and f32 squares of transformed ones, are far from overflow.
+/// The largest coordinate: its cube in f64, and the square of a transformed one in f32, are far from overflow.
 pub(super) const MAX_LENGTH: f64 = 1e9;
 
-/// The smallest length of what must have one. Its square is far from underflow even in f32.
+/// The smallest length of a vector that must have a direction: its square is far from underflow in f32.
 pub(super) const MIN_LENGTH: f64 = 1e-9;
 
-/// The largest radiance, which leaves room for sums and products in f32.
+/// The largest radiance: its sums and products are far from overflow in f32.
 const MAX_RADIANCE: f32 = 1e12;
 
-/// Collects problems with what lies at one path.
+/// Checks of the values at one path, which collect the problems.
 pub(super) struct Checks<'a> {
     path: String,
     problems: &'a mut Vec<Problem>,
@@ -25,7 +25,7 @@ impl<'a> Checks<'a> {
         Self { path: String::new(), problems }
     }
 
-    /// Checks of what `key` holds.
+    /// Checks of the values at a key.
     pub(super) fn at(&mut self, key: &str) -> Checks<'_> {
         Checks { path: self.path_of(key), problems: self.problems }
     }
@@ -34,47 +34,47 @@ impl<'a> Checks<'a> {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
-    /// Reports a problem with `key` unless `holds`.
+    /// Reports a problem at `key` unless `holds`.
     pub(super) fn require(&mut self, holds: bool, key: &str, message: impl FnOnce() -> String) {
         if !holds {
             self.problems.push(Problem { path: self.path_of(key), message: message() });
         }
     }
 
-    /// A number from `min` to `max`; NaN is none.
+    /// Requires a number from `min` to `max`.
     pub(super) fn within(&mut self, key: &str, x: f64, min: f64, max: f64) {
         self.require((min..=max).contains(&x), key, || {
             format!("found {x:?}, expected a number from {min:?} to {max:?}")
         });
     }
 
-    /// A length above 0.
+    /// Requires a length above 0.
     pub(super) fn length(&mut self, key: &str, x: f64) {
         self.within(key, x, MIN_LENGTH, MAX_LENGTH);
     }
 
-    /// Coordinates that can be computed with.
+    /// Requires finite coordinates of at most the largest size.
     pub(super) fn point(&mut self, key: &str, p: DVec3) {
         self.require(is_point(p), key, || {
             format!("found {:?}, expected numbers from {:?} to {MAX_LENGTH:?}", p.to_array(), -MAX_LENGTH)
         });
     }
 
-    /// Coordinates that have a direction.
+    /// Requires a vector with a direction.
     pub(super) fn direction(&mut self, key: &str, d: DVec3) {
         self.point(key, d);
         self.require(!is_point(d) || d.length() >= MIN_LENGTH, key, || {
-            format!("found {:?}, expected a direction, of length {MIN_LENGTH:?} at least", d.to_array())
+            format!("found {:?}, expected a direction of length at least {MIN_LENGTH:?}", d.to_array())
         });
     }
 
-    /// A strength of light for each channel.
+    /// Requires a radiance, intensity or absorption for each channel.
     pub(super) fn radiance(&mut self, key: &str, c: Rgb) {
         let fits = c.to_array().into_iter().all(|x| (0.0..=MAX_RADIANCE).contains(&x));
         self.require(fits, key, || format!("found {:?}, expected 0 to {MAX_RADIANCE:?} in each channel", c.to_array()));
     }
 
-    /// The name of something that there is.
+    /// Requires one of the known names.
     pub(super) fn name(&mut self, key: &str, name: &str, kind: &str, known: &[&str]) {
         self.require(known.contains(&name), key, || {
             format!("found \"{name}\", expected the name of a {kind}{}", suggestion(name, known.iter().copied()))
@@ -82,12 +82,12 @@ impl<'a> Checks<'a> {
     }
 }
 
-/// Whether all coordinates are finite and of a size that can be computed with.
+/// Whether all coordinates are finite and of at most the largest size.
 pub(super) fn is_point(p: DVec3) -> bool {
     p.to_array().into_iter().all(|x| x.abs() <= MAX_LENGTH)
 }
 
-/// Whether two directions span no plane that numbers could tell: less than about 1e-9 radians apart.
+/// Whether two directions are parallel, up to about 1e-9 radians.
 pub(super) fn parallel(a: DVec3, b: DVec3) -> bool {
     a.cross(b).length() <= 1e-9 * a.length() * b.length()
 }

@@ -1,13 +1,13 @@
 use super::{
-    Names,
     checks::{Checks, MAX_LENGTH},
+    names::Names,
 };
 use crate::{
     math::Rgb,
     scene::{Color, Material, MaterialModel, Relief, TextureUse},
 };
 
-/// A material.
+/// Checks a material.
 pub(super) fn material(material: &Material, names: &Names<'_>, checks: &mut Checks<'_>) {
     match &material.model {
         MaterialModel::Diffuse { albedo } => color("albedo", albedo, names, checks),
@@ -40,7 +40,7 @@ pub(super) fn material(material: &Material, names: &Names<'_>, checks: &mut Chec
     }
 }
 
-/// A part of the light for each channel.
+/// Checks a reflectance or a transmittance: 0 to 1 in each channel.
 fn color(key: &str, color: &Color, names: &Names<'_>, checks: &mut Checks<'_>) {
     match color {
         Color::Constant(c) => checks.require(c.cmpge(Rgb::ZERO).all() && c.cmple(Rgb::ONE).all(), key, || {
@@ -50,7 +50,7 @@ fn color(key: &str, color: &Color, names: &Names<'_>, checks: &mut Checks<'_>) {
     }
 }
 
-/// Two parts of the same light, which together are not more than all of it.
+/// Checks two reflectances whose sum may not exceed 1 in any channel.
 fn reflecting(base: (&str, &Color), top: (&str, &Color), names: &Names<'_>, checks: &mut Checks<'_>) {
     color(base.0, base.1, names, checks);
     color(top.0, top.1, names, checks);
@@ -58,10 +58,7 @@ fn reflecting(base: (&str, &Color), top: (&str, &Color), names: &Names<'_>, chec
         // Decimals like 0.9 + 0.1 may exceed 1 by a rounding of f32.
         let fits = (*a + *b).cmple(Rgb::splat(1.0 + 2.0 * f32::EPSILON)).all();
         checks.require(fits || a.max_element() > 1.0 || b.max_element() > 1.0, top.0, || {
-            format!(
-                "found {b}, which with {} {a} makes more than 1, expected {0} + {} <= 1 in each channel",
-                base.0, top.0
-            )
+            format!("found {b}; with {} {a} the sum exceeds 1, expected {0} + {} <= 1 in each channel", base.0, top.0)
         });
     }
 }

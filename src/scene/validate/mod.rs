@@ -1,15 +1,25 @@
-//! What must hold of a scene, whoever made it: a file or a window.
+//! The rules of a valid scene, from a file or from the window.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod` | [`validate`]; camera, film, render, textures |
+//! | `material` | materials |
+//! | `shape` | lights and objects |
+//! | `checks` | checks of single values, which collect the problems |
+//! | `names` | the names that a scene can refer to |
 
 mod checks;
 mod material;
+mod names;
 mod shape;
 
 use super::{Camera, Film, Problem, Render, Scene, Texture};
 use checks::{Checks, MIN_LENGTH, parallel};
+use names::Names;
 use std::collections::HashSet;
 
-/// Everything that is wrong with a scene: numbers out of range, names that name nothing or two things, surfaces that
-/// reflect more than they receive. Empty for a scene that can be rendered.
+/// All problems of a scene: numbers out of range, names that are missing or ambiguous, materials that reflect more light than
+/// they receive. Empty for a valid scene.
 pub fn validate(scene: &Scene) -> Vec<Problem> {
     let mut problems = Vec::new();
     let mut checks = Checks::new(&mut problems);
@@ -24,22 +34,7 @@ pub fn validate(scene: &Scene) -> Vec<Problem> {
     problems
 }
 
-/// What can be referred to.
-struct Names<'a> {
-    textures: Vec<&'a str>,
-    materials: Vec<&'a str>,
-}
-
-impl<'a> Names<'a> {
-    fn of(scene: &'a Scene) -> Self {
-        Self {
-            textures: scene.textures.iter().map(|t| t.name.as_str()).collect(),
-            materials: scene.materials.iter().map(|m| m.name.as_str()).collect(),
-        }
-    }
-}
-
-/// Checks every item of a list, and that its name is there and its own.
+/// Checks every item of a list, and that its name is not empty and unique.
 fn each<'a, T>(
     list: &str,
     items: &'a [T],
@@ -51,10 +46,9 @@ fn each<'a, T>(
     for (index, item) in items.iter().enumerate() {
         let name = name(item);
         let checks = &mut checks.at(&format!("{list}[{index}]"));
-        checks
-            .require(!name.is_empty(), "name", || "found an empty name, expected one that others can refer to".into());
+        checks.require(!name.is_empty(), "name", || "found an empty name, expected a name".into());
         checks.require(name.is_empty() || seen.insert(name), "name", || {
-            format!("found \"{name}\" for the second time, expected a name that no other {list} has")
+            format!("found \"{name}\" for the second time, expected a name that is unique among the {list}s")
         });
         check(item, checks);
     }
@@ -66,10 +60,10 @@ fn camera(camera: &Camera, checks: &mut Checks<'_>) {
     checks.point("up", camera.up);
     let forward = camera.target - camera.position;
     checks.require(forward.length() >= MIN_LENGTH, "target", || {
-        "found the camera's position, expected another point".into()
+        "found the position of the camera, expected another point".into()
     });
     checks.require(forward.length() < MIN_LENGTH || !parallel(forward, camera.up), "up", || {
-        format!("found {}, expected a direction across that from position to target", camera.up)
+        format!("found {}, expected a direction that is not parallel to the view direction", camera.up)
     });
     let fov = camera.fov_y;
     checks
@@ -91,7 +85,7 @@ fn render(render: &Render, checks: &mut Checks<'_>) {
 
 fn texture(texture: &Texture, checks: &mut Checks<'_>) {
     checks.require(!texture.file.is_empty(), "file", || {
-        "found an empty path, expected that of a PNG or JPEG file".into()
+        "found an empty path, expected the path of a PNG or JPEG file".into()
     });
 }
 

@@ -1,11 +1,11 @@
 use super::{
-    Names,
     checks::{Checks, MIN_LENGTH, is_point, parallel},
+    names::Names,
 };
 use crate::scene::{Bezier, Emitter, Light, Object, Shape, Transform};
 use glam::DVec3;
 
-/// A light.
+/// Checks a light.
 pub(super) fn light(light: &Light, checks: &mut Checks<'_>) {
     match light.emitter {
         Emitter::Point { position, intensity } => {
@@ -24,7 +24,7 @@ pub(super) fn light(light: &Light, checks: &mut Checks<'_>) {
     }
 }
 
-/// An object.
+/// Checks an object.
 pub(super) fn object(object: &Object, names: &Names<'_>, checks: &mut Checks<'_>) {
     checks.name("material", &object.material, "material", &names.materials);
     match &object.shape {
@@ -44,7 +44,7 @@ fn parallelogram(corner: DVec3, edge_u: DVec3, edge_v: DVec3, checks: &mut Check
     checks.direction("edge_v", edge_v);
     let flat = parallel(edge_u, edge_v) && edge_u.length() >= MIN_LENGTH && edge_v.length() >= MIN_LENGTH;
     checks.require(!flat, "edge_v", || {
-        format!("found {edge_v}, expected another direction than that of edge_u {edge_u}")
+        format!("found {edge_v}, expected a direction that is not parallel to edge_u {edge_u}")
     });
 }
 
@@ -54,14 +54,16 @@ fn plane(point: DVec3, normal: DVec3, u_axis: Option<DVec3>, checks: &mut Checks
     if let Some(u_axis) = u_axis {
         checks.direction("u_axis", u_axis);
         checks.require(!parallel(normal, u_axis) || u_axis.length() < MIN_LENGTH, "u_axis", || {
-            format!("found {u_axis}, expected a direction across the normal {normal}")
+            format!("found {u_axis}, expected a direction that is not parallel to the normal {normal}")
         });
     }
 }
 
 fn bezier(bezier: &Bezier, checks: &mut Checks<'_>) {
     transform(&bezier.transform, &mut checks.at("transform"));
-    checks.require(bezier.file.as_deref() != Some(""), "file", || "found an empty path".into());
+    checks.require(bezier.file.as_deref() != Some(""), "file", || {
+        "found an empty path, expected the path of a .bpt file".into()
+    });
     checks.require(!bezier.patches.is_empty(), "patches", || "found no patch, expected at least one".into());
     for (k, net) in bezier.patches.iter().enumerate() {
         for (i, row) in net.points.iter().enumerate() {
@@ -77,7 +79,7 @@ fn transform(transform: &Transform, checks: &mut Checks<'_>) {
     checks.point("rotate", transform.rotate);
     for (index, factor) in transform.scale.to_array().into_iter().enumerate() {
         checks.require((1e-6..=1e6).contains(&factor.abs()), &format!("scale[{index}]"), || {
-            format!("found {factor}, expected a factor from 1e-6 to 1e6, or below 0 to mirror")
+            format!("found {factor}, expected a factor from 1e-6 to 1e6, or from -1e6 to -1e-6 to mirror")
         });
     }
 }

@@ -1,0 +1,22 @@
+use super::{Camera, Film, Light, Material, Object, Render, Texture};
+
+/// A scene as the user describes it.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Scene {
+    /// The title of the window; may be empty.
+    pub name: String,
+    /// The camera.
+    pub camera: Camera,
+    /// The size of the image, exposure and tone curve.
+    pub film: Film,
+    /// The limits of light transport.
+    pub render: Render,
+    /// The images that materials refer to by name.
+    pub textures: Vec<Texture>,
+    /// The materials that objects refer to by name.
+    pub materials: Vec<Material>,
+    /// The light sources.
+    pub lights: Vec<Light>,
+    /// The surfaces.
+    pub objects: Vec<Object>,
+}

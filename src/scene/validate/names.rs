@@ -1,0 +1,17 @@
+use crate::scene::Scene;
+
+/// The names that a scene can refer to.
+pub(super) struct Names<'a> {
+    pub(super) textures: Vec<&'a str>,
+    pub(super) materials: Vec<&'a str>,
+}
+
+impl<'a> Names<'a> {
+    /// The names of the textures and materials of a scene.
+    pub(super) fn of(scene: &'a Scene) -> Self {
+        Self {
+            textures: scene.textures.iter().map(|t| t.name.as_str()).collect(),
+            materials: scene.materials.iter().map(|m| m.name.as_str()).collect(),
+        }
+    }
+}
