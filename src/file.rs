@@ -1,4 +1,4 @@
-//! Files are written whole or not at all.
+//! Writing files whole or not at all.
 
 use std::{
     fs::{self, File},
@@ -7,16 +7,20 @@ use std::{
 };
 use tempfile::Builder;
 
-/// Makes `path` hold exactly `bytes`: writes them to a temporary file beside it and renames that. Where this fails,
-/// whatever was at `path` is as it was. What is no regular file (a pipe, a device) is written directly.
+/// Writes `bytes` to the file at `path`, whole or not at all: to a temporary file beside it, which is then renamed. Writes
+/// directly to pipes and devices.
+///
+/// # Errors
+///
+/// If the file cannot be written; the previous file is then unchanged.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // A symbolic link stays one: its target is what is replaced.
+    // Replaces the target of a symbolic link, not the link.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let before = fs::metadata(&target).ok();
     if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
         return fs::write(&target, bytes);
     }
-    // Made by hand: the crate's own way puts the temporary name, which means nothing to people, into errors.
+    // With a creator of our own, because the default one puts the temporary name into errors.
     let temporary = Builder::new().prefix(".patchlight-").make_in(folder(&target), |path| File::create_new(path))?;
     temporary.as_file().write_all(bytes)?;
     if let Some(before) = before.filter(fs::Metadata::is_file) {
@@ -27,7 +31,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// The folder that holds `path`.
+/// The folder of the file at `path`.
 pub fn folder(path: &Path) -> PathBuf {
     path.parent().filter(|p| !p.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_owned)
 }

@@ -10,7 +10,7 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(error) => {
-            // Where not even messages can be written, the exit code must do.
+            // If the message cannot be written either, the exit code remains.
             writeln!(std::io::stderr(), "{error}").ok();
             ExitCode::from(error.exit_code())
         }
@@ -25,7 +25,7 @@ fn open_window(scene: SceneFile) -> Result<(), CliError> {
 #[cfg(not(feature = "gui"))]
 fn open_window(scene: SceneFile) -> Result<(), CliError> {
     Err(CliError::Failed(format!(
-        "this program was built without a window\nThis works at once: patchlight render {} -o picture.png",
+        "this build of patchlight has no window (feature `gui`)\nTo render without a window: patchlight render {} -o picture.png",
         scene.location.argument()
     )))
 }

@@ -1,16 +1,18 @@
+//! The command line, and the texts of `--help`.
+
 use crate::{scene::SurfaceExport, transport::Component};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::Deserialize;
 use std::{num::NonZeroUsize, path::PathBuf};
 
-/// See what light does with a curved surface.
+/// Progressive photon mapping of Bezier patches.
 ///
-/// Without a command it opens a window. SCENE is a file, or the name of a built-in scene: report, report-flipped,
-/// water, cardioid, lens, teapot, cornell.
+/// Without a command, patchlight opens a window. SCENE is a scene file or the name of a built-in scene: report,
+/// report-flipped, water, cardioid, lens, teapot, cornell.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
-    /// The scene to show [default: the built-in scene report]
+    /// The scene of the window [default: report]
     pub(super) scene: Option<PathBuf>,
     #[command(subcommand)]
     pub(super) command: Option<Command>,
@@ -18,11 +20,11 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Render a picture without a window
+    /// Render an image without a window
     Render(RenderArguments),
-    /// Measure the error against a reference picture over time
+    /// Measure the error against a reference image over time
     Bench(BenchArguments),
-    /// Check a scene; print what would be rendered, what is skipped and why
+    /// Validate a scene; print what is rendered, what is skipped, and why
     Check(CheckArguments),
     /// Print the nearest hit of every ray on Bezier patches: `1,t,u,v` or `0,,,`
     Intersect(IntersectArguments),
@@ -30,32 +32,32 @@ pub(super) enum Command {
     Export(ExportArguments),
 }
 
-/// How the rendering is done.
+/// The settings of rendering.
 #[derive(Debug, Args)]
 pub(super) struct RenderSettings {
-    /// Pixels of the picture, instead of what the scene says
+    /// Size of the image in pixels [default: the size in the scene]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<(u32, u32)>,
-    /// Threads that render [default: one for each core]
+    /// Number of rendering threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
-    /// Another number gives another noise
+    /// Seed of the random numbers; another seed gives other noise
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) seed: u64,
-    /// Render this part of the light alone; the three add up to the picture
+    /// Render only this component of the light; the three components add up to the image
     #[arg(long, value_name = "PART")]
     pub(super) only: Option<Part>,
 }
 
-/// A part of the light, as people write it.
+/// A component of the light on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Part {
-    /// Lights themselves, what they light with nothing in between, and most of what gloss reflects of it
+    /// Visible lights, direct illumination, and most of its glossy reflections
     Direct,
-    /// What mirrors and glass throw onto surfaces
+    /// Light that mirrors and glass focus on surfaces
     Caustics,
-    /// What surfaces throw onto each other
+    /// Light that surfaces reflect onto each other
     Interreflection,
 }
 
@@ -73,30 +75,30 @@ impl From<Part> for Component {
 pub(super) struct RenderArguments {
     /// A scene file or the name of a built-in scene
     pub(super) scene: PathBuf,
-    /// Where the picture goes: .png as shown on a screen, .exr in linear 32-bit floats
+    /// The image file: .png with exposure and tone curve, or .exr with linear 32-bit floats
     #[arg(short, long, value_name = "OUT.(png|exr)")]
     pub(super) output: PathBuf,
     #[command(flatten)]
     pub(super) budget: Budget,
     #[command(flatten)]
     pub(super) settings: RenderSettings,
-    /// Write numbers about the rendering to this JSON file
+    /// Write statistics of the rendering to this JSON file
     #[arg(long, value_name = "FILE.json")]
     pub(super) stats: Option<PathBuf>,
 }
 
-/// When rendering ends; after ten seconds unless one of them says otherwise.
+/// The end of rendering: a time, a number of iterations, or an error; by default a time.
 #[derive(Clone, Copy, Debug, Args)]
 #[group(multiple = false)]
 pub(super) struct Budget {
-    /// Render this long, from the first iteration on [default: 10]
+    /// Render for S seconds, from the first iteration on [default: 10]
     #[arg(long, value_name = "S", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) seconds: Option<f64>,
-    /// Render this many iterations
+    /// Render N iterations
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) iterations: Option<u64>,
-    /// Render until the estimated error, relative to the mean radiance, is below this: 0.02 is 2 %; the fewer the pixels, the
-    /// rougher the estimate
+    /// Render until the estimated RMSE, relative to the mean radiance, is below E: 0.02 is 2 %. The estimate is rough for small
+    /// images
     #[arg(long, value_name = "E", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) error: Option<f64>,
 }
@@ -110,40 +112,39 @@ impl Budget {
 pub(super) struct BenchArguments {
     /// A scene file or the name of a built-in scene
     pub(super) scene: Option<PathBuf>,
-    /// The true picture
+    /// The reference image
     #[arg(long, value_name = "REF.exr")]
     pub(super) reference: Option<PathBuf>,
-    /// Another true picture with other noise: errors are then measured without the noise of either, and outside the mask by
-    /// this one alone
+    /// A second reference image with independent noise: errors then exclude the noise of the references. Outside the mask,
+    /// errors are against this reference alone
     #[arg(long, value_name = "REF.exr", requires = "reference")]
     pub(super) second_reference: Option<PathBuf>,
-    /// Count only pixels that are bright in this picture, and the others apart
+    /// Measure the bright pixels of this image, and separately the dark ones
     #[arg(long, value_name = "MASK.png")]
     pub(super) mask: Option<PathBuf>,
-    /// When to measure
+    /// Measure after each of these times, in seconds
     #[arg(long, value_name = "S,S,..", value_delimiter = ',', default_value = "1,2,4,8,16", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) seconds: Vec<f64>,
-    /// Measure this often, each time with another noise
+    /// Repeat the measurement with K seeds
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) seeds: u64,
-    /// Threads that render [default: one for each core]
+    /// Number of rendering threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
-    /// Measure this part of the light alone, which is all that the true picture shows
+    /// Measure only this component of the light, which the reference image must show alone
     #[arg(long, value_name = "PART")]
     pub(super) only: Option<Part>,
-    /// Write the table to this file
+    /// Write the measurements to this CSV file
     #[arg(long, value_name = "OUT.csv")]
     pub(super) csv: Option<PathBuf>,
-    /// Draw the errors over time, both on logarithmic axes
+    /// Plot the errors over time, on logarithmic axes
     #[arg(long, value_name = "OUT.png")]
     pub(super) plot: Option<PathBuf>,
-    /// Measure all the scenes that this file lists, instead of SCENE: for each a [[run]] with name, scene, seconds and
-    /// perhaps seeds, only, mask, others (a relMSE to compare with), and reference, perhaps with second_reference, or
-    /// reference_seconds
+    /// Measure all runs of this file instead of SCENE: each [[run]] has name, scene and seconds; optionally seeds, only, mask,
+    /// others (a relMSE to compare with); and either reference, optionally with second_reference, or reference_seconds
     #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["scene", "reference", "second_reference", "mask", "seconds", "seeds", "only", "csv", "plot"])]
     pub(super) suite: Option<PathBuf>,
-    /// Where the tables and plots of a suite go: FILE.md, and files that are called like the runs
+    /// The folder for the results of a suite: the table FILE.md, and a table and a plot for each run
     #[arg(short, long, value_name = "FOLDER")]
     pub(super) output: Option<PathBuf>,
 }
@@ -156,12 +157,12 @@ pub(super) struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub(super) struct IntersectArguments {
-    /// For each patch a line `patch NAME` and 16 lines `x y z`, four along v for each step along u
+    /// The patches: for each one a line `patch NAME` and 16 lines `x y z`, in rows of four along v
     pub(super) patches: PathBuf,
-    /// A table with a header and the columns ox, oy, oz, dx, dy, dz and perhaps tmin: hits at t <= tmin do not count
+    /// The rays: a table with a header and the columns ox, oy, oz, dx, dy, dz and optionally tmin; hits have t > tmin
     #[arg(value_name = "RAYS.csv")]
     pub(super) rays: PathBuf,
-    /// Take this patch alone; without it every line names the patch that was hit, from 0, where there are several
+    /// Intersect only this patch [default: all patches; each hit then has the index of its patch, from 0]
     #[arg(long, value_name = "NAME")]
     pub(super) patch: Option<String>,
 }
@@ -170,13 +171,13 @@ pub(super) struct IntersectArguments {
 pub(super) struct ExportArguments {
     /// A scene file or the name of a built-in scene
     pub(super) scene: PathBuf,
-    /// .obj: quads with normals and (u, v), welded where patches meet; .bpt: the control points
+    /// The file: .obj for a mesh of quads with normals and (u, v), welded between patches; .bpt for control points
     #[arg(short, long, value_name = "OUT.(obj|bpt)")]
     pub(super) output: PathBuf,
-    /// Take this object alone [default: all objects of Bezier patches]
+    /// Export only this object [default: all objects of Bezier patches]
     #[arg(long, value_name = "NAME")]
     pub(super) object: Option<String>,
-    /// Quads along each side of a patch, in an .obj
+    /// Number of quads along each side of a patch in an .obj file
     #[arg(long, value_name = "N", default_value_t = SurfaceExport::STEPS, value_parser = parse_steps)]
     pub(super) steps: NonZeroUsize,
 }

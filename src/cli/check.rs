@@ -5,7 +5,7 @@ use crate::{
 };
 use std::io::{Write, stdout};
 
-/// `patchlight check`.
+/// `patchlight check`: prints the contents of a scene and the plan of its rendering.
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), CliError> {
     let file = SceneFile::find(&arguments.scene)?;
     let session = pool(None)?.install(|| Session::prepare(&file, 0, None))?;

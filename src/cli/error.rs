@@ -1,36 +1,37 @@
 use crate::{engine::SessionError, film::ImageError, scene::SceneError};
 use std::io;
 
-/// Why a command did not do what was asked.
+/// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
-    /// The command line is wrong.
+    /// An error in the command line or in a file that it names.
     #[error("{0}")]
     Usage(String),
-    /// The scene is wrong, or cannot be written.
+    /// The scene cannot be opened or saved.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A picture is wrong, or cannot be written.
+    /// An image cannot be read, written or compared.
     #[error(transparent)]
     Image(#[from] ImageError),
     /// The scene cannot be rendered.
     #[error(transparent)]
     Session(#[from] SessionError),
-    /// It failed while running.
+    /// A failure while running.
     #[error("{0}")]
     Failed(String),
-    /// Standard output or standard error takes nothing.
+    /// Standard output or standard error cannot be written.
     #[error("the output cannot be written: {0}")]
     Output(#[from] io::Error),
 }
 
 impl CliError {
-    /// Whether all that happened is that the reader of the output went away, as `head` does.
+    /// Whether the reader of the output closed it, as `head` does: no failure.
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
     }
 
-    /// 1: it failed while running; 2: the command line, the scene or a picture given to it is wrong.
+    /// The exit code of the program: 1 for a failure while running, 2 for an error in the command line, in the scene or in an
+    /// image that it names.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Scene(SceneError::Write { .. }) | Self::Image(ImageError::Write { .. }) => 1,

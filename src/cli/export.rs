@@ -1,13 +1,13 @@
 use super::{CliError, args::ExportArguments, output::write};
 use crate::scene::{Scene, SceneFile, Shape, SurfaceExport, SurfaceFormat};
 
-/// `patchlight export`: the Bezier patches of a scene where they stand in the world, as a mesh or as control points.
+/// `patchlight export`: writes the Bezier patches of a scene in world space, as a mesh or as control points.
 pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
     let file = SceneFile::find(&arguments.scene)?;
     let surface = chosen(&file.scene, arguments.object.as_deref())?;
     let path = arguments.output.display();
     let format = SurfaceFormat::of(&arguments.output)
-        .ok_or_else(|| CliError::Usage(format!("{path}: a file that ends in .obj or .bpt can be written")))?;
+        .ok_or_else(|| CliError::Usage(format!("{path}: expected a name that ends in .obj or .bpt")))?;
     write(&arguments.output, surface.text(format, arguments.steps).as_bytes())
 }
 
@@ -20,7 +20,7 @@ fn chosen(scene: &Scene, wanted: Option<&str>) -> Result<SurfaceExport, CliError
         CliError::Usage(match wanted.filter(|_| !names.is_empty()) {
             Some(name) => {
                 let names = names.join(", ");
-                format!("no object of Bezier patches is called `{name}`; there are: {names}")
+                format!("no object of Bezier patches has the name `{name}`; their names are {names}")
             }
             None => "the scene has no object of Bezier patches".to_owned(),
         })

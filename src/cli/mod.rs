@@ -1,4 +1,15 @@
-//! The command line: everything that needs no window.
+//! The command line: the commands that need no window.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `args` | [`Arguments`] and the texts of `--help` |
+//! | `error` | [`CliError`] and the exit codes |
+//! | `words` | plurals |
+//! | `output` | writes the files of the commands |
+//! | `rendering` | the thread pool, timed iterations |
+//! | `progress`, `statistics` | the progress bar and `--stats` of `render` |
+//! | `render`, `check`, `export` | the commands of these names |
+//! | `intersect/`, `bench/` | the commands of these names |
 
 mod args;
 mod bench;
@@ -20,7 +31,11 @@ use crate::scene::SceneFile;
 use args::Command;
 use std::path::Path;
 
-/// Does what the command line asks for. Without a command that is `open_window`, which belongs to whoever has one.
+/// Runs the command of the command line; without a command, `open_window` with the scene.
+///
+/// # Errors
+///
+/// If the command fails. Its message and exit code are in the error.
 pub fn run(arguments: Arguments, open_window: impl FnOnce(SceneFile) -> Result<(), CliError>) -> Result<(), CliError> {
     match arguments.command {
         None => {

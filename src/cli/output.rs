@@ -1,21 +1,21 @@
-//! The files that commands write.
+//! The output files of the commands.
 
 use super::CliError;
 use crate::file::{folder, write_whole};
 use std::path::Path;
 
-/// Tells before the rendering rather than after it that its result cannot be written.
+/// Fails before the rendering if the folder of its result does not exist.
 pub(super) fn needs_folder(path: &Path) -> Result<(), CliError> {
     let folder = folder(path);
     let there = folder.is_dir();
     if there {
         Ok(())
     } else {
-        Err(CliError::Usage(format!("{}: there is no folder {}", path.display(), folder.display())))
+        Err(CliError::Usage(format!("{}: the folder {} does not exist", path.display(), folder.display())))
     }
 }
 
-/// Writes a result, whole or not at all.
+/// Writes a file, whole or not at all.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     write_whole(path, bytes).map_err(|e| CliError::Failed(format!("{}: cannot be written: {e}", path.display())))
 }

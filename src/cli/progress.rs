@@ -2,10 +2,10 @@ use super::{args::Budget, words::counted};
 use crate::engine::Stats;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Steps of a bar that shows a part.
+/// The length of the progress bar, in steps.
 const STEPS: u64 = 1000;
 
-/// How far the rendering is, on a terminal; elsewhere nothing.
+/// The progress bar of a rendering, which is visible on terminals only.
 pub(super) struct Progress {
     bar: ProgressBar,
     budget: Budget,
@@ -20,10 +20,10 @@ impl Progress {
         Self { bar, budget }
     }
 
-    /// Shows the rendering after an iteration.
+    /// Shows the progress after an iteration.
     pub(super) fn show(&self, stats: &Stats) {
-        let part = part_done(&self.budget, stats).clamp(0.0, 1.0);
-        self.bar.set_position((STEPS as f64 * part) as u64);
+        let fraction = fraction_done(&self.budget, stats).clamp(0.0, 1.0);
+        self.bar.set_position((STEPS as f64 * fraction) as u64);
         let error = stats.error_estimate.map_or(String::new(), |e| format!(", error about {:.1} %", 100.0 * e));
         self.bar.set_message(format!("{}, {:.0} s{error}", counted(stats.iterations, "iteration"), stats.seconds));
     }
@@ -35,11 +35,11 @@ impl Drop for Progress {
     }
 }
 
-/// How much of the budget is spent, about.
-fn part_done(budget: &Budget, stats: &Stats) -> f64 {
+/// The approximate fraction of the budget that is spent.
+fn fraction_done(budget: &Budget, stats: &Stats) -> f64 {
     match (budget.iterations, budget.error, stats.error_estimate) {
         (Some(limit), _, _) => stats.iterations as f64 / limit as f64,
-        // Errors fall about like the square root of time.
+        // Errors fall about as 1 over the square root of time.
         (_, Some(limit), Some(estimate)) => (limit / estimate).powi(2),
         (_, Some(_), None) => 0.0,
         _ => stats.seconds / budget.seconds.unwrap_or(Budget::DEFAULT_SECONDS),

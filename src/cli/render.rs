@@ -19,7 +19,7 @@ use std::{
     path::Path,
 };
 
-/// `patchlight render`.
+/// `patchlight render`: renders an image and writes it.
 pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
     let format = Format::of(&arguments.output)?;
     needs_folder(&arguments.output)?;
@@ -49,7 +49,8 @@ fn render_frame(file: &SceneFile, arguments: &RenderArguments) -> Result<(Frame,
     Ok((session.frame(0), cpu_seconds))
 }
 
-/// Whether the rendering is over, when the last iteration took this many seconds. Time is up when the next iteration would probably end too late.
+/// Whether the budget is spent. `last` is the time of the last iteration, in seconds: the next one, if it takes as long, must end
+/// within the budget.
 fn is_spent(budget: &Budget, session: &Session, last: f64) -> bool {
     let iterations = session.iterations();
     if let Some(limit) = budget.iterations {
@@ -61,7 +62,7 @@ fn is_spent(budget: &Budget, session: &Session, last: f64) -> bool {
     session.seconds() + last > budget.seconds.unwrap_or(Budget::DEFAULT_SECONDS)
 }
 
-/// What the name of the output asks for.
+/// The file format of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
     Png,
@@ -102,7 +103,7 @@ fn report(frame: &Frame, output: &Path) -> Result<(), CliError> {
     let iterations = counted(stats.iterations, "iteration");
     writeln!(err, "{}: {iterations} in {:.1} s", output.display(), stats.seconds)?;
     if stats.dropped_samples > 0 {
-        writeln!(err, "left out {} that were not finite", counted(stats.dropped_samples, "sample"))?;
+        writeln!(err, "dropped {} that were not finite", counted(stats.dropped_samples, "sample"))?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@ use super::CliError;
 use crate::engine::{Counters, Frame};
 use serde::Serialize;
 
-/// Numbers about a rendering, as `--stats` writes them.
+/// The statistics of a rendering, as `--stats` writes them.
 #[derive(Serialize)]
 pub(super) struct Statistics<'a> {
     iterations: u64,
@@ -68,6 +68,7 @@ impl<'a> Statistics<'a> {
 
     pub(super) fn json(&self) -> Result<String, CliError> {
         let json = serde_json::to_string_pretty(self);
-        json.map(|text| text + "\n").map_err(|e| CliError::Failed(format!("no statistics: {e}")))
+        json.map(|text| text + "\n")
+            .map_err(|e| CliError::Failed(format!("the statistics cannot be written as JSON: {e}")))
     }
 }

@@ -1,4 +1,4 @@
-/// `1 iteration`, `2 iterations`, `3 patches`.
+/// A number with its noun: `1 iteration`, `2 iterations`, `3 patches`.
 pub(super) fn counted(n: u64, word: &str) -> String {
     let ending = match n {
         1 => "",

@@ -1,10 +1,10 @@
-/// Values that can be shown; a reference that was rendered in 32 bits tells nothing about others.
+/// The values that an axis can show. Errors beyond are meaningless: references are rendered in 32 bits.
 const RANGE: std::ops::Range<f64> = 1e-30..1e30;
 
-/// Room between the values and the ends of the axis.
+/// The margin between the values and the ends of the axis, a factor.
 const ROOM: f64 = 1.05;
 
-/// So many labels fit beside each other.
+/// The number of labels that fit beside each other.
 const LABELS: i32 = 10;
 
 /// A logarithmic axis that begins and ends with round numbers: 1, 2 or 5 times a power of ten.
@@ -12,18 +12,18 @@ const LABELS: i32 = 10;
 pub(super) struct Axis {
     pub(super) low: f64,
     pub(super) high: f64,
-    /// Where a number stands, ascending.
+    /// The values with labels, ascending.
     pub(super) labels: Vec<f64>,
-    /// Where there is a line, ascending.
+    /// The values with grid lines, ascending.
     pub(super) lines: Vec<f64>,
 }
 
-/// Whether a value has a place on an axis.
+/// Whether an axis can show a value.
 pub(super) fn is_shown(value: f64) -> bool {
     RANGE.contains(&value)
 }
 
-/// The axis on which all values have a place that are shown at all; without any, one around 1.
+/// The axis of all values that can be shown; around 1 if there are none.
 pub(super) fn axis(values: impl Iterator<Item = f64>) -> Axis {
     let ends = values.filter(|x| is_shown(*x)).fold(None, |ends: Option<(f64, f64)>, x| {
         let (low, high) = ends.unwrap_or((x, x));
@@ -46,7 +46,7 @@ pub(super) fn axis(values: impl Iterator<Item = f64>) -> Axis {
     Axis { low, high, labels: labels.map(round).collect(), lines: lines.filter(|x| (low..=high).contains(x)).collect() }
 }
 
-/// How an axis names a round number.
+/// The label of a round number.
 pub(super) fn label(x: f64) -> String {
     if (1e-3..1e5).contains(&x) {
         format!("{x:.*}", usize::try_from(-decade(x)).unwrap_or(0))
@@ -55,12 +55,12 @@ pub(super) fn label(x: f64) -> String {
     }
 }
 
-/// The power of ten at or below a number; the factor is against rounding.
+/// The exponent of the power of ten at or below a number; the factor compensates rounding.
 fn decade(x: f64) -> i32 {
     (x * (1.0 + 1e-9)).log10().floor() as i32
 }
 
-/// The round numbers in order; 1 is the one with index 0.
+/// The round numbers in ascending order; the number with index 0 is 1.
 fn round(index: i32) -> f64 {
     let digit = match index.rem_euclid(3) {
         0 => 1.0,
@@ -70,7 +70,7 @@ fn round(index: i32) -> f64 {
     digit * 10f64.powi(index.div_euclid(3))
 }
 
-/// How many powers of ten stand between two labels.
+/// The number of powers of ten from one label to the next.
 fn stride(first: i32, last: i32) -> i32 {
     1 + (last - first) / (3 * LABELS)
 }

@@ -1,6 +1,6 @@
 use super::measurement::Measurement;
 
-/// Everything that was measured, for other programs. What is outside a mask that is not there stays empty.
+/// All measurements as CSV. Columns about pixels outside of a mask stay empty without a mask.
 pub(super) fn csv(rows: &[Measurement]) -> String {
     let mut text = "seed,mark,seconds,iterations,photons,rays,dropped,rmse,rel_mse,rmse_trimmed,rel_mse_trimmed,\
                     rmse_outside,rel_mse_outside,flip,flip_outside,mean_ratio_r,mean_ratio_g,mean_ratio_b,estimate_over_error,\

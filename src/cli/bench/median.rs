@@ -1,29 +1,29 @@
 use super::measurement::Measurement;
 use crate::film::Errors;
 
-/// A number for each way to measure an error.
+/// An RMSE and a relMSE, or a slope of each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pair {
     pub(super) rmse: f64,
     pub(super) rel_mse: f64,
 }
 
-/// The middle of what the seeds gave at one mark.
+/// The medians over the seeds at one mark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Median {
     pub(super) mark: f64,
-    /// What iterations really took.
+    /// The actual time of the iterations.
     pub(super) seconds: f64,
     pub(super) errors: Pair,
-    /// Of the pixels outside the mask, where there is one.
+    /// The errors outside the mask, if there is one.
     pub(super) outside: Option<Pair>,
-    /// How different the pictures look, where it was measured.
+    /// The mean FLIP, if it was measured.
     pub(super) flip: Option<f64>,
-    /// Of [`Measurement::estimate_over_error`].
+    /// The median of [`Measurement::estimate_over_error`].
     pub(super) estimate_over_error: Option<f64>,
 }
 
-/// One for each mark, the earliest first.
+/// The medians of each mark, in ascending order.
 pub(super) fn medians(rows: &[Measurement]) -> Vec<Median> {
     let mut marks: Vec<_> = rows.iter().map(|row| row.mark).collect();
     marks.sort_by(f64::total_cmp);
@@ -50,7 +50,7 @@ fn pair(errors: impl Iterator<Item = Errors> + Clone) -> Pair {
     Pair { rmse: median(errors.clone().map(|e| e.rmse)), rel_mse: median(errors.map(|e| e.rel_mse)) }
 }
 
-/// The middle value; of an even number of values the mean of the two in the middle; of none not a number.
+/// The median; NaN for no values.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<_> = values.collect();
     values.sort_by(f64::total_cmp);

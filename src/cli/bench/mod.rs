@@ -1,4 +1,15 @@
-//! Time against error: how fast a scene's picture comes near to its reference.
+//! Error over time: how fast the image of a scene converges to a reference.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod` | `patchlight bench` of one scene |
+//! | `truth` | `Truth`: references and mask |
+//! | `measurement` | `Measurement`: the errors at one mark |
+//! | `median`, `slope` | medians over seeds; the power of time by which errors fall |
+//! | `table`, `csv` | the measurements as text |
+//! | `axis`, `plot` | the measurements as a plot |
+//! | `trial` | `Trial`: renders and measures one scene |
+//! | `suite/` | `patchlight bench --suite`: several scenes |
 
 mod axis;
 mod csv;
@@ -26,7 +37,7 @@ use std::path::Path;
 use trial::Trial;
 use truth::Truth;
 
-/// `patchlight bench`.
+/// `patchlight bench`: measures a scene or a suite.
 pub(super) fn bench(arguments: &BenchArguments) -> Result<(), CliError> {
     let BenchArguments { scene, reference, suite, output, .. } = arguments;
     match (scene, reference, suite, output) {
@@ -59,7 +70,7 @@ fn bench_scene(scene: &Path, reference: &Path, arguments: &BenchArguments) -> Re
     Ok(())
 }
 
-/// Tells before the rendering that a plot cannot be written there.
+/// Fails before the rendering if the plot cannot be written to this path.
 fn needs_png(path: &Path) -> Result<(), CliError> {
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
         needs_folder(path)

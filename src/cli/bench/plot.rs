@@ -1,12 +1,12 @@
-//! Time against error as a picture, both axes logarithmic.
+//! The plot of error over time, on logarithmic axes.
 
 use super::{
-    CliError,
     axis::{Axis, axis, is_shown, label},
     measurement::Measurement,
     median::medians,
     slope::slopes,
 };
+use crate::cli::CliError;
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
 use plotters::backend::BitMapBackend;
 use plotters::{
@@ -25,26 +25,26 @@ use std::error::Error;
 const WIDTH: u32 = 960;
 const HEIGHT: u32 = 640;
 
-/// Rows above the axes, for the title and what the colours mean.
+/// Rows of pixels above the axes, for the title and the legend.
 const HEAD: u32 = 72;
 
-/// The only font: one that the program carries, so that a plot looks the same everywhere.
+/// The name of the font inside the program, which makes plots equal on all systems.
 const FONT: &str = "plot";
 
-/// Characters of a title that there is room for.
+/// The number of characters of a title that fit.
 const TITLE: usize = 70;
 
-/// What is shown in one colour.
+/// One error over time.
 struct Curve {
     name: String,
     color: RGBColor,
-    /// Seconds and error, at each mark the median of the seeds.
+    /// Seconds and error: the median over the seeds at each mark.
     medians: Vec<(f64, f64)>,
-    /// Those of each seed.
+    /// Seconds and error of each seed at each mark.
     seeds: Vec<(f64, f64)>,
 }
 
-/// The errors over time, as the bytes of a PNG file.
+/// The plot as the bytes of a PNG file.
 pub(super) fn png(title: &str, rows: &[Measurement]) -> Result<Vec<u8>, CliError> {
     let failed = |e: Box<dyn Error>| CliError::Failed(format!("the plot cannot be drawn: {e}"));
     let mut pixels = vec![0; 3 * WIDTH as usize * HEIGHT as usize];
@@ -87,7 +87,7 @@ fn curves(rows: &[Measurement]) -> [Curve; 2] {
 
 fn draw(pixels: &mut [u8], title: &str, curves: &[Curve]) -> Result<(), Box<dyn Error>> {
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| "the font that the program carries is damaged")?;
+        .map_err(|_| "the font inside the program is damaged")?;
     let root = BitMapBackend::with_buffer(pixels, (WIDTH, HEIGHT)).into_drawing_area();
     root.fill(&WHITE)?;
     let (head, body) = root.split_vertically(HEAD);
@@ -97,7 +97,7 @@ fn draw(pixels: &mut [u8], title: &str, curves: &[Curve]) -> Result<(), Box<dyn 
     Ok(())
 }
 
-/// The title, and below it what the colours mean: outside the axes, where no curve can be in the way.
+/// Draws the title and below it the legend, outside of the axes and so clear of the curves.
 fn draw_head(
     area: &DrawingArea<BitMapBackend<'_>, Shift>,
     title: &str,
@@ -152,7 +152,7 @@ fn line_style(curve: &Curve) -> ShapeStyle {
     curve.color.stroke_width(2)
 }
 
-/// What fits into a line.
+/// The title, cut to the length that fits.
 fn shortened(title: &str) -> String {
     match title.char_indices().nth(TITLE) {
         Some((end, _)) => format!("{}...", &title[..end]),

@@ -1,10 +1,10 @@
 use super::median::{Median, Pair};
 
-/// Marks earlier than the last one over this do not count: at first the error falls otherwise than later.
+/// Slopes use the marks from the last one divided by this on: early errors fall at another rate.
 const OCTAVES: f64 = 4.0;
 
-/// How fast the errors fall in the last two octaves of time: like time to these powers. `None` where there are no two
-/// different times, or an error is 0.
+/// The powers of time by which the errors fall in the last two octaves of time. `None` without two different times, or if an
+/// error is 0.
 pub(super) fn slopes(medians: &[Median]) -> Option<Pair> {
     let last = medians.last()?.mark;
     let late = medians.iter().filter(|median| median.mark >= last / OCTAVES);
@@ -13,8 +13,8 @@ pub(super) fn slopes(medians: &[Median]) -> Option<Pair> {
     (slopes.rmse.is_finite() && slopes.rel_mse.is_finite()).then_some(slopes)
 }
 
-/// The slope of the line through the logarithms of (x, y), by least squares: y falls like x to this power. Not a
-/// number where there are no two different x.
+/// The slope of the line through the logarithms of (x, y), by least squares: y falls as x to this power. NaN without two
+/// different x.
 fn log_slope(points: impl Iterator<Item = (f64, f64)>) -> f64 {
     let logs: Vec<_> = points.map(|(x, y)| (x.ln(), y.ln())).collect();
     let Some((first, _)) = logs.first() else { return f64::NAN };

@@ -1,4 +1,4 @@
-//! The tables that people read.
+//! The tables on standard output.
 
 use super::{
     measurement::Measurement,
@@ -7,7 +7,7 @@ use super::{
 };
 use std::fmt::Write;
 
-/// The head of the table of measurements; with a mask it has columns for the pixels outside.
+/// The header of the table of measurements; with a mask it has columns for the pixels outside.
 pub(super) fn header(masked: bool) -> String {
     let outside = if masked { format!("{:>11} {:>11} ", "RMSE out", "relMSE out") } else { String::new() };
     format!(
@@ -25,7 +25,7 @@ pub(super) fn header(masked: bool) -> String {
     )
 }
 
-/// A line of it.
+/// The line of a measurement.
 pub(super) fn line(row: &Measurement) -> String {
     let (stats, errors) = (&row.stats, &row.errors);
     let [r, g, b] = errors.mean_ratio;
@@ -44,13 +44,12 @@ pub(super) fn line(row: &Measurement) -> String {
     )
 }
 
-/// The medians where there are several seeds, how fast the errors fall, and where the time went.
+/// The medians of several seeds, the rate at which errors fall, and the time of each pass.
 pub(super) fn summary(rows: &[Measurement], seeds: u64) -> String {
     let medians = medians(rows);
     let mut text = if seeds > 1 { median_lines(&medians, seeds) } else { String::new() };
     if let Some(Pair { rmse, rel_mse }) = slopes(&medians) {
-        text +=
-            &format!("RMSE falls like t^{rmse:.2}, relMSE like t^{rel_mse:.2}, over the last two octaves of time\n");
+        text += &format!("RMSE falls as t^{rmse:.2}, relMSE as t^{rel_mse:.2}, over the last two octaves of time\n");
     }
     if let Some(last) = rows.last() {
         let passes = &last.stats.passes;
@@ -124,7 +123,7 @@ mod tests {
         let text = summary(&rows, 3);
         assert!(text.starts_with("medians of 3 seeds\n"), "{text}");
         assert!(text.contains("       1       1.00    0.20000   4.000e-2\n"), "{text}");
-        assert!(!text.contains("falls like"), "there is one time only: {text}");
+        assert!(!text.contains("falls as"), "there is one time only: {text}");
         assert!(!summary(&rows[..1], 1).contains("median"));
     }
 }

@@ -10,19 +10,20 @@ use crate::{
 };
 use std::io::{Write, stdout};
 
-/// What is measured, and how often.
+/// The measurement of one scene.
 pub(super) struct Trial {
     pub(super) file: SceneFile,
     pub(super) truth: Truth,
-    /// Seconds, the earliest first.
+    /// The marks in seconds, ascending.
     pub(super) marks: Vec<f64>,
     pub(super) seeds: u64,
-    /// The part of the light that is measured; `None`: all of it.
+    /// The component of the light that is measured; `None` for all.
     pub(super) only: Option<Component>,
 }
 
 impl Trial {
-    /// The picture is rendered with as many pixels as the truth has.
+    /// The measurement of a scene with the image size of the reference, after each of these seconds and with this number of
+    /// seeds.
     pub(super) fn new(mut file: SceneFile, truth: Truth, seconds: &[f64], seeds: u64) -> Self {
         (file.scene.film.width, file.scene.film.height) = truth.size();
         let mut marks = seconds.to_vec();
@@ -30,12 +31,12 @@ impl Trial {
         Self { file, truth, marks, seeds, only: None }
     }
 
-    /// The same for a part of the light alone.
+    /// The measurement of one component of the light, or of all.
     pub(super) fn only(self, only: Option<Component>) -> Self {
         Self { only, ..self }
     }
 
-    /// Measures with each seed, and prints as it goes. To be called inside the thread pool that is to do the work.
+    /// Measures with each seed, and prints each measurement. Renders in the current thread pool.
     pub(super) fn measure(&self) -> Result<Vec<Measurement>, CliError> {
         writeln!(stdout(), "{}", table::header(self.truth.is_masked()))?;
         let mut rows = Vec::new();
@@ -46,8 +47,7 @@ impl Trial {
         Ok(rows)
     }
 
-    /// Renders until the last mark and measures the picture at each of them; at a mark that comes before the first
-    /// iteration's end, after that.
+    /// Renders until the last mark and measures at each mark, but not before the end of the first iteration.
     fn measure_seed(&self, seed: u64, rows: &mut Vec<Measurement>) -> Result<(), CliError> {
         let mut session = Session::prepare(&self.file, seed, None)?.only(self.only);
         let mut last = advance(&mut session);

@@ -1,18 +1,19 @@
 use crate::film::{Errors, ImageError, LinearImage, Mask, compare, compare_with_both};
 use crate::scene::Film;
 
-/// What pictures are compared with.
+/// The reference of a measurement.
 pub(super) struct Truth {
     reference: LinearImage,
-    /// Another one, by which errors inside the mask are measured without the references' noise; those outside, where the first one
-    /// is not trusted, by this one alone.
+    /// A second reference, with which errors inside the mask exclude the noise of the references. Outside the mask, where the
+    /// first reference is not trusted, errors are against this one alone.
     second: Option<LinearImage>,
-    /// The pixels that count, and the others.
+    /// The mask, and the mask of the other pixels.
     masks: Option<(Mask, Mask)>,
 }
 
 impl Truth {
-    /// Fails when the mask or the second reference does not fit the reference: before the rendering rather than after it.
+    /// The reference of these images. Fails, before the rendering, if the size of the mask or of the second reference differs
+    /// from the size of the first reference.
     pub(super) fn new(
         reference: LinearImage,
         second: Option<LinearImage>,
@@ -26,17 +27,17 @@ impl Truth {
         Ok(Self { reference, second, masks })
     }
 
-    /// Pixels in a row, and rows.
+    /// Width and height in pixels.
     pub(super) fn size(&self) -> (u32, u32) {
         (self.reference.width, self.reference.height)
     }
 
-    /// Whether some pixels do not count.
+    /// Whether there is a mask.
     pub(super) fn is_masked(&self) -> bool {
         self.masks.is_some()
     }
 
-    /// The errors of the pixels that count, and of the others where there is a mask.
+    /// The errors inside the mask, and the errors outside if there is a mask.
     pub(super) fn errors(&self, image: &LinearImage) -> Result<(Errors, Option<Errors>), ImageError> {
         let second = self.second.as_ref().unwrap_or(&self.reference);
         let errors = |mask| compare_with_both(image, &self.reference, second, mask);
@@ -46,7 +47,7 @@ impl Truth {
         }
     }
 
-    /// How different the picture looks as this film shows it, inside and outside the mask; `None` without the feature `flip`.
+    /// The mean FLIP inside and outside the mask, with the exposure and tone curve of a film; `None` without the feature `flip`.
     #[cfg(feature = "flip")]
     pub(super) fn flip(&self, image: &LinearImage, film: &Film) -> (Option<f64>, Option<f64>) {
         use crate::film::{ToneMap, flip, mean_inside};
@@ -55,7 +56,7 @@ impl Truth {
         (Some(inside), self.masks.as_ref().map(|(_, others)| mean_inside(&differences, Some(others))))
     }
 
-    /// `None`: it takes the feature `flip`.
+    /// `None`, without the feature `flip`.
     #[cfg(not(feature = "flip"))]
     pub(super) fn flip(&self, _: &LinearImage, _: &Film) -> (Option<f64>, Option<f64>) {
         (None, None)

@@ -1,7 +1,15 @@
-//! `patchlight intersect`: the nearest hit of every ray, by the renderer's own tree.
+//! `patchlight intersect`: the nearest hit of every ray, by the tree of the renderer.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod` | the command |
+//! | `patches` | reads the file of patches |
+//! | `rays` | reads the table of rays |
+//! | `table_error` | `TableError`: an error with its line |
 
 mod patches;
 mod rays;
+mod table_error;
 
 use super::{CliError, args::IntersectArguments};
 use crate::geometry::bezier::{ControlNet, Patch};
@@ -10,17 +18,10 @@ use std::fs;
 use std::io::{BufWriter, Write, stdout};
 use std::path::Path;
 use std::sync::Arc;
+use table_error::TableError;
 
-/// What is wrong with a file, and the line (from 1) where that shows.
-#[derive(Debug, PartialEq, thiserror::Error)]
-#[error("line {line}: {problem}")]
-struct TableError {
-    line: usize,
-    problem: String,
-}
-
-/// Prints a line for each ray: `1,t,u,v`, with `,patch` (from 0, in the order of the file) where there are several
-/// patches, or `0,,,`.
+/// Prints a line for each ray: `0,,,` for a miss, `1,t,u,v` for a hit, with `,patch` (the index in the file, from 0) if there
+/// are several patches.
 pub(super) fn intersect(arguments: &IntersectArguments) -> Result<(), CliError> {
     let nets =
         chosen(patches::read(&text(&arguments.patches)?).map_err(|e| wrong(&arguments.patches, &e))?, arguments)?;
@@ -52,7 +53,7 @@ fn chosen(patches: Vec<(String, ControlNet)>, arguments: &IntersectArguments) ->
         None => {
             let names: Vec<&str> = patches.iter().map(|(n, _)| n.as_str()).collect();
             let file = arguments.patches.display();
-            Err(CliError::Usage(format!("{file} has no patch `{name}`; it has {}", names.join(", "))))
+            Err(CliError::Usage(format!("{file} has no patch `{name}`; its patches are {}", names.join(", "))))
         }
     }
 }

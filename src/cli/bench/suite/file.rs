@@ -1,3 +1,5 @@
+//! The file of a suite.
+
 use crate::cli::{CliError, args::Part};
 use serde::Deserialize;
 use std::{
@@ -6,31 +8,31 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Seconds for an own reference, over those of the last mark: it then has a quarter of the noise.
+/// The rendering time of a reference, relative to the last mark: it then has a quarter of the noise.
 const REFERENCE_FACTOR: f64 = 16.0;
 
-/// What stands in a suite's file.
+/// The contents of the file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Suite {
     run: Vec<Entry>,
 }
 
-/// One `[[run]]`. Paths are relative to the suite's file.
+/// One `[[run]]`. Paths are relative to the file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Entry {
     pub(super) name: Name,
-    /// A file, or without an ending the name of a built-in scene.
+    /// A scene file, or the name of a built-in scene.
     pub(super) scene: PathBuf,
     pub(super) reference: Option<PathBuf>,
-    /// Another one, with other noise.
+    /// A second reference with independent noise.
     pub(super) second_reference: Option<PathBuf>,
     reference_seconds: Option<Positive>,
     pub(super) mask: Option<PathBuf>,
-    /// The part of the light that is measured; all of it if nobody says.
+    /// The component of the light that is measured; all by default.
     pub(super) only: Option<Part>,
-    /// The relMSE that others reach.
+    /// The relMSE of another program, to compare with.
     pub(super) others: Option<Positive>,
     pub(super) seconds: Marks,
     #[serde(default = "one")]
@@ -38,14 +40,14 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// How long to render the reference where none is named.
+    /// The rendering time of the reference, in seconds, for a run without a reference image.
     pub(super) fn reference_seconds(&self) -> f64 {
         let last = self.seconds.0.iter().copied().fold(0.0, f64::max);
         self.reference_seconds.as_ref().map_or(REFERENCE_FACTOR * last, |seconds| seconds.0)
     }
 }
 
-/// What files can be named after.
+/// A name that file names can contain.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "String")]
 pub(super) struct Name(pub(super) String);
@@ -55,7 +57,8 @@ impl TryFrom<String> for Name {
 
     fn try_from(name: String) -> Result<Self, Self::Error> {
         let fits = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
-        fits.then_some(Self(name)).ok_or("expected a name of letters, digits, \"-\" and \"_\", because files get it")
+        fits.then_some(Self(name))
+            .ok_or("expected a name of letters, digits, \"-\" and \"_\", which becomes the name of files")
     }
 }
 
@@ -72,7 +75,7 @@ impl TryFrom<f64> for Positive {
     }
 }
 
-/// When to measure.
+/// The marks, in seconds.
 #[derive(Debug, Deserialize)]
 #[serde(try_from = "Vec<f64>")]
 pub(super) struct Marks(pub(super) Vec<f64>);
@@ -90,7 +93,7 @@ fn one() -> NonZeroU64 {
     NonZeroU64::MIN
 }
 
-/// The runs that a suite's file lists.
+/// The runs of a suite.
 pub(super) fn read(path: &Path) -> Result<Vec<Entry>, CliError> {
     let wrong = |message: &str| CliError::Usage(format!("{}: {message}", path.display()));
     let text = fs::read_to_string(path).map_err(|e| wrong(&format!("cannot be read: {e}")))?;
@@ -100,19 +103,19 @@ pub(super) fn read(path: &Path) -> Result<Vec<Entry>, CliError> {
 fn parse(text: &str) -> Result<Vec<Entry>, String> {
     let suite: Suite = toml::from_str(text).map_err(|e| e.to_string().trim_end().to_owned())?;
     if suite.run.is_empty() {
-        return Err("it has no run: add a [[run]] with name, scene and seconds".to_owned());
+        return Err("the suite has no run; add a [[run]] with name, scene and seconds".to_owned());
     }
     for (k, entry) in suite.run.iter().enumerate() {
         let Name(name) = &entry.name;
-        // Where file systems ignore case, so do the names of files.
+        // Some file systems ignore case in names.
         if suite.run[..k].iter().any(|other| other.name.0.eq_ignore_ascii_case(name)) {
-            return Err(format!("two runs are called \"{name}\": give one of them another name"));
+            return Err(format!("two runs have the name \"{name}\"; rename one of them"));
         }
         if entry.reference.is_some() && entry.reference_seconds.is_some() {
-            return Err(format!("run \"{name}\": reference_seconds is of no use with a reference: leave one out"));
+            return Err(format!("run \"{name}\": expected reference or reference_seconds, found both"));
         }
         if entry.second_reference.is_some() && entry.reference.is_none() {
-            return Err(format!("run \"{name}\": second_reference takes a reference: add one"));
+            return Err(format!("run \"{name}\": second_reference requires reference"));
         }
     }
     Ok(suite.run)
@@ -149,9 +152,9 @@ mod tests {
             (&format!("{RUN}seeds = 0"), "line 5, column 9"),
             (&format!("{RUN}reference_seconds = 0"), "expected a number above 0"),
             (&format!("{RUN}others = -1e-4"), "expected a number above 0"),
-            (&format!("{RUN}second_reference = \"b.exr\""), "run \"a\": second_reference takes a reference"),
-            (&twice.replacen("\"a\"", "\"A\"", 1), "two runs are called \"a\""),
-            (&both, "reference_seconds is of no use"),
+            (&format!("{RUN}second_reference = \"b.exr\""), "run \"a\": second_reference requires reference"),
+            (&twice.replacen("\"a\"", "\"A\"", 1), "two runs have the name \"a\""),
+            (&both, "expected reference or reference_seconds, found both"),
         ] {
             let message = parse(text).unwrap_err();
             assert!(message.contains(part), "should say {part:?}, but says\n{message}");

@@ -1,10 +1,12 @@
+//! The table of a suite, as Markdown.
+
 use super::result::RunResult;
 use crate::cli::{
     bench::{median::Pair, slope::slopes},
     words::counted,
 };
 
-/// The medians of several runs as one table of Markdown; a run's slopes stand in the line of its last mark.
+/// The medians of several runs as one table. The slopes of a run are in the line of its last mark.
 pub(super) fn table(runs: &[RunResult], threads: usize) -> String {
     let compared = runs.iter().any(|run| run.others.is_some());
     let others = |text: String| if compared { text } else { String::new() };
@@ -14,9 +16,9 @@ pub(super) fn table(runs: &[RunResult], threads: usize) -> String {
     let flip = |text: String| if has_flip { text } else { String::new() };
     let threads = counted(threads as u64, "thread");
     let mut text = format!(
-        "Medians over the seeds of each run, on {threads}. The seconds are those of the iterations that end before the \
-         mark, or of the first one. A slope is the power of time like which an error falls in the last two octaves. The estimate is \
-         that of the RMSE of the whole picture, also outside the mask, without the reference.\n\n\
+        "Medians over the seeds of each run, on {threads}. The seconds are the time of the iterations that end before the \
+         mark, or of the first iteration. A slope is the power of time by which an error falls in the last two octaves. The \
+         estimate is the RMSE of the whole image, estimated without the reference.\n\n\
          | scene | mark | seconds | RMSE | relMSE |{}{}{} estimate over RMSE | slope of RMSE | slope of relMSE |\n\
          |---|--:|--:|--:|--:|{}{}{}--:|--:|--:|\n",
         others(" relMSE of others | others over ours |".to_owned()),

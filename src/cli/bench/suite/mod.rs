@@ -1,4 +1,12 @@
-//! Several scenes measured with one command: what a suite's file lists.
+//! `patchlight bench --suite`: several scenes measured with one command.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod` | the command |
+//! | `file` | reads the file of a suite |
+//! | `run` | `Run`: one scene with its reference |
+//! | `result` | `RunResult`: the medians of a run |
+//! | `markdown` | the table of all results |
 
 mod file;
 mod markdown;
@@ -15,18 +23,18 @@ use std::{
     path::Path,
 };
 
-/// Fewer marks make no curve.
-const FEWEST_PLOTTED: usize = 3;
+/// The least number of marks for a plot.
+const MIN_PLOTTED: usize = 3;
 
-/// `patchlight bench --suite`: for each run a table, and a plot where it makes a curve, into a folder, and the medians of all
-/// into one table that is called like the suite.
+/// Measures the runs of a suite and writes to a folder: for each run a table, and a plot if there are enough marks; for all runs
+/// the medians as one table with the name of the suite.
 pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> Result<(), CliError> {
-    // All files are read before anything is rendered.
+    // Reads all files before the first rendering.
     let folder = suite.parent().unwrap_or(Path::new(""));
     let load = |entry| Run::load(entry, folder).map_err(|e| in_run(suite, &entry.name.0, &e));
     let runs = file::read(suite)?.iter().map(load).collect::<Result<Vec<_>, _>>()?;
     fs::create_dir_all(output)
-        .map_err(|e| CliError::Failed(format!("{}: the folder cannot be made: {e}", output.display())))?;
+        .map_err(|e| CliError::Failed(format!("{}: the folder cannot be created: {e}", output.display())))?;
     let pool = pool(threads)?;
     let mut results = Vec::new();
     for run in runs {
@@ -35,7 +43,7 @@ pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> 
         let rows = pool.install(|| run.measure())?;
         write(&output.join(format!("{name}.csv")), csv(&rows).as_bytes())?;
         let medians = medians(&rows);
-        if medians.len() >= FEWEST_PLOTTED {
+        if medians.len() >= MIN_PLOTTED {
             write(&output.join(format!("{name}.png")), &plot::png(&name, &rows)?)?;
         }
         results.push(RunResult { name, others, medians });
@@ -45,7 +53,7 @@ pub(super) fn bench_suite(suite: &Path, output: &Path, threads: Option<u16>) -> 
     write(&table, markdown::table(&results, pool.current_num_threads()).as_bytes())
 }
 
-/// What is wrong with a file that a run names.
+/// The error of a run in the suite.
 fn in_run(suite: &Path, run: &str, error: &CliError) -> CliError {
     CliError::Usage(format!("{}: run \"{run}\": {error}", suite.display()))
 }

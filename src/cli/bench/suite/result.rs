@@ -1,9 +1,9 @@
 use crate::cli::bench::median::Median;
 
-/// What a run gave.
+/// The result of a run.
 pub(super) struct RunResult {
     pub(super) name: String,
-    /// The relMSE that others reach.
+    /// The relMSE of another program, to compare with.
     pub(super) others: Option<f64>,
     pub(super) medians: Vec<Median>,
 }

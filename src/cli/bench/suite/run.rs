@@ -16,13 +16,13 @@ use std::{
     sync::Arc,
 };
 
-/// The seed of own references: none that is measured.
+/// The seed of rendered references, which no measurement uses.
 const REFERENCE_SEED: u64 = u64::MAX;
 
-/// A run with all the files that it names.
+/// A run with its files loaded.
 pub(super) struct Run {
     pub(super) name: String,
-    /// The relMSE that others reach.
+    /// The relMSE of another program, to compare with.
     pub(super) others: Option<f64>,
     file: SceneFile,
     reference: Reference,
@@ -33,14 +33,14 @@ pub(super) struct Run {
 }
 
 enum Reference {
-    /// Perhaps with another one.
+    /// A reference image, optionally with a second one.
     Given(LinearImage, Option<LinearImage>),
-    /// To be rendered, for so many seconds.
+    /// A reference that is rendered first, for this number of seconds.
     Own(f64),
 }
 
 impl Run {
-    /// Reads the files, whose paths are relative to `folder`.
+    /// Reads the files of a run; their paths are relative to `folder`.
     pub(super) fn load(entry: &Entry, folder: &Path) -> Result<Self, CliError> {
         let Name(name) = &entry.name;
         let file = SceneFile::find_from(folder, &entry.scene)?;
@@ -53,7 +53,7 @@ impl Run {
             }
             None => Reference::Own(entry.reference_seconds()),
         };
-        // Whether the pictures fit is told now, not after other runs.
+        // Fails before the first rendering if the sizes of the images differ.
         let (truth, second) = match &reference {
             Reference::Given(image, second) => (image, second.as_ref()),
             Reference::Own(_) => (&LinearImage::black(file.scene.film.width, file.scene.film.height), None),
@@ -65,7 +65,7 @@ impl Run {
         Ok(Self { name: name.clone(), others, file, reference, mask, marks, seeds, only })
     }
 
-    /// To be called inside the thread pool that is to do the work.
+    /// Measures the run. Renders in the current thread pool.
     pub(super) fn measure(self) -> Result<Vec<Measurement>, CliError> {
         let (reference, second) = match self.reference {
             Reference::Given(image, second) => (image, second),
