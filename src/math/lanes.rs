@@ -14,10 +14,10 @@ pub trait Lanes: Copy {
     /// The token of the crate `pulp` for the same instruction set: vectors of four `f64`.
     type Simd: pulp::Simd;
 
-    /// See [`Lanes::Simd`].
+    /// The token, see [`Lanes::Simd`].
     fn simd(self) -> Self::Simd;
 
-    /// The same number in every lane.
+    /// A number in every lane.
     fn splat(self, x: f32) -> Self::Vector;
     /// Loads numbers from memory.
     fn load(self, x: &[f32; LANES]) -> Self::Vector;

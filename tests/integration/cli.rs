@@ -144,7 +144,7 @@ fn a_black_scene_ends_by_error_too() {
 fn control_points_are_no_scene() {
     let dir = folder();
     fs::write(dir.path().join("sheet.bpt"), "0\n").unwrap();
-    fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt: holds control points", "file = "]);
+    fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt: is a file of control points", "file = "]);
 }
 
 #[test]
@@ -400,7 +400,7 @@ fn the_suites_of_the_project_are_valid() {
     for suite in ["suite", "references", "others"] {
         let file = format!("benches/suite/{suite}.toml");
         let run = ["bench", "--suite", &file, "--output", taken.to_str().unwrap()];
-        fails(&patchlight(root, &run), 1, &["taken: the folder cannot be made"]);
+        fails(&patchlight(root, &run), 1, &["taken: the folder cannot be created"]);
     }
 }
 

@@ -166,8 +166,8 @@ impl Subpatch8 {
             l.mul_add(l.abs(d_alpha), slack, layout.load(l, &self.extent[0])),
             l.mul_add(l.abs(d_beta), slack, layout.load(l, &self.extent[1])),
         ];
-        let first = Root::new(l, l.div(l.scale(-2.0, c), sum), nearest, &at, &along);
-        let second = Root::new(l, l.div(l.scale(-0.5, sum), a), nearest, &at, &along);
+        let first = BranchRoots::new(l, l.div(l.scale(-2.0, c), sum), nearest, &at, &along);
+        let second = BranchRoots::new(l, l.div(l.scale(-0.5, sum), a), nearest, &at, &along);
         let lanes = layout.active(self.count);
         let decided_lanes = l.bits(decided) & lanes;
         let branches = [first.in_range(l, ray, slack, reach), second.in_range(l, ray, slack, reach)];
@@ -212,13 +212,13 @@ impl Subpatch8 {
 }
 
 /// Where rays meet paraboloids on one of their branches, by lanes.
-struct Root<L: Lanes> {
+struct BranchRoots<L: Lanes> {
     z: L::Vector,
     alpha: L::Vector,
     beta: L::Vector,
 }
 
-impl<L: Lanes> Root<L> {
+impl<L: Lanes> BranchRoots<L> {
     /// The root at w.
     #[inline(always)]
     fn new(l: L, w: L::Vector, nearest: L::Vector, at: &[L::Vector; 3], along: &[L::Vector; 3]) -> Self {

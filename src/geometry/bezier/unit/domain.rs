@@ -61,8 +61,8 @@ impl Domain {
 }
 
 /// How far outside of a subpatch's domain a root still is a hit, in x and y. Neighbouring subpatches and patches overlap by
-/// more than rounding, so that no ray slips between them, and by less than anyone can see. Where a derivative vanishes the
-/// domains' overlap is none in space; there subdivision decides, with a slack of its own.
+/// more than rounding, so that no ray slips between them, and by less than anyone can see. Where a derivative vanishes,
+/// domains that overlap do not overlap in space; there subdivision decides, with a slack of its own.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slack {
     x: f64,

@@ -40,7 +40,7 @@ impl Row {
         ])
     }
 
-    /// The same number four times.
+    /// A row of four times `x`.
     #[inline(always)]
     pub(crate) fn splat(x: f64) -> Self {
         Self([x; 4])
