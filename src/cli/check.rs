@@ -17,7 +17,7 @@ fn text(file: &SceneFile, plan: &PlanSummary) -> String {
     let mut text = format!("{}: valid; {}\n", file.location.label(), contents(&file.scene));
     for note in &plan.notes {
         let verdict = if note.rendered { "rendered" } else { "skipped " };
-        text += &format!("{verdict}  {}: {}\n", note.what, note.reason);
+        text += &format!("{verdict}  {}: {}\n", note.item, note.reason);
     }
     text
 }

@@ -32,7 +32,7 @@ struct PassSeconds {
 
 #[derive(Serialize)]
 struct Note<'a> {
-    what: &'a str,
+    what: String,
     rendered: bool,
     reason: &'a str,
 }
@@ -41,7 +41,8 @@ impl<'a> Statistics<'a> {
     pub(super) fn new(frame: &'a Frame, cpu_seconds: f64, threads: usize) -> Self {
         let stats = &frame.stats;
         let passes = &stats.passes;
-        let note = |n: &'a crate::engine::PlanNote| Note { what: &n.what, rendered: n.rendered, reason: &n.reason };
+        let note =
+            |n: &'a crate::engine::PlanNote| Note { what: n.item.to_string(), rendered: n.rendered, reason: &n.reason };
         Self {
             iterations: stats.iterations,
             photons_emitted: stats.photons_emitted,

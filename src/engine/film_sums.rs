@@ -1,4 +1,4 @@
-use super::noise_laws::Laws;
+use super::convergence_rates::ConvergenceRates;
 use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::transport::PixelSamples;
@@ -34,7 +34,7 @@ struct Differences {
     /// Of the mean of all, over pixels and channels.
     squared_noise: f64,
     /// What they tell of the samples' noise.
-    laws: Laws,
+    rates: ConvergenceRates,
 }
 
 /// Sums for a pixel, in double precision: single stalls after some ten million additions.
@@ -179,18 +179,18 @@ impl FilmSums {
             return None;
         }
         let mut photons = 0.0;
-        let mut laws = Laws::default();
+        let mut rates = ConvergenceRates::default();
         for (all, first) in self.all.iter().zip(&self.first) {
             let other = *all - *first;
             photons += (first.photons / self.first_weight - other.photons / other_weight).length_squared();
             let samples = (first.mean_sample() - other.mean_sample()).length_squared();
-            laws.include(samples, first.samples_weight, other.samples_weight);
+            rates.include(samples, first.samples_weight, other.samples_weight);
         }
         let channels = 3.0 * self.all.len() as f64;
         // Of independent photons.
         let photons = photons * (self.first_weight * other_weight) / self.weight.powi(2);
-        let samples = laws.squared_noise(self.halves.as_ref().map(|halves| &halves.laws));
-        Some(Differences { squared_noise: (photons + samples) / channels, laws })
+        let samples = rates.squared_noise(self.halves.as_ref().map(|halves| &halves.rates));
+        Some(Differences { squared_noise: (photons + samples) / channels, rates })
     }
 }
 

@@ -1,82 +1,54 @@
+//! One iteration of stochastic progressive photon mapping.
+
 use super::frame::PassSeconds;
-use crate::math::Rgb;
 use crate::transport::{
-    Cancel, Contrast, Counters, MapKind, Maps, PhotonMap, PixelSamples, Plan, Rows, SeenLobe, camera_pass,
-    caustic_photon_pass, gather, global_photon_pass, join, seen_lobes, share_lobes,
+    Band, Cancel, Contribution, Counters, Maps, Plan, Rows, camera_pass, caustic_photon_pass, gather,
+    global_photon_pass,
 };
 use crate::world::World;
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// One whole round of the algorithm, for the film or a band of it.
+/// The result of an iteration.
 #[derive(Clone, Debug)]
 pub(super) struct Iteration {
-    /// For each pixel the radiance that photons bring.
-    pub(super) photons: Vec<Rgb>,
-    /// For each pixel the rest of its radiance.
-    pub(super) samples: Vec<PixelSamples>,
-    /// For each pixel, of [`gather`].
-    pub(super) contrasts: Vec<Contrast>,
+    /// What the iteration adds to the film.
+    pub(super) contribution: Contribution,
+    /// The work that it took.
+    pub(super) work: Work,
+}
+
+/// Work of passes, and the time that they took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Work {
     pub(super) counters: Counters,
     pub(super) seconds: PassSeconds,
 }
 
-/// Renders iteration `i`, counted from 1: a pure function of its arguments. `None` when cancelled.
+/// Renders iteration `i` (from 1): a pure function of its arguments. `None` when cancelled.
 pub(super) fn render_iteration(world: &World, plan: &Plan, seed: u64, i: u64, cancel: Cancel) -> Option<Iteration> {
-    let mut counters = Counters::default();
-    let mut seconds = PassSeconds::default();
-
-    // Side by side: no thread is idle while the other one is at the end of a pass.
-    let (caustic, global) = timed(&mut seconds.photons, || {
+    let mut work = Work::default();
+    // Both photon passes at once: no thread idles at the end of the first one.
+    let (caustic, global) = timed(&mut work.seconds.photons, || {
         rayon::join(
             || caustic_photon_pass(world, plan, seed, i, cancel),
             || global_photon_pass(world, plan, seed, i, cancel),
         )
     });
     let (caustic, global) = (caustic?, global?);
-    counters += caustic.counters;
-    counters += global.counters;
-
-    let maps = timed(&mut seconds.map, || {
-        let others = [&caustic.photons, &global.focused, &global.glossy];
-        let (global, [caustic, focused, glossy]) =
-            rayon::join(|| PhotonMap::build(&global.photons), || others.map(|photons| PhotonMap::build(photons)));
-        Maps { caustic, global, focused, glossy }
+    let maps = timed(&mut work.seconds.map, || {
+        Maps::build(&caustic.photons, [&global.photons, &global.indirect_caustics, &global.glossy])
     });
-    let built = MapKind::ALL.into_iter().filter(|kind| !maps[*kind].is_empty()).count();
-    counters.map_builds += built as u64;
-
     let bands = plan.bands(i).into_par_iter().map(|rows| render_band(world, plan, &maps, &rows, seed, i, cancel));
-    let bands: Vec<Band> = bands.collect::<Option<_>>()?;
-    let threads = rayon::current_num_threads() as f64;
-    for Band { iteration: band, .. } in &bands {
-        counters += band.counters;
-        seconds.camera += band.seconds.camera / threads;
-        seconds.gather += band.seconds.gather / threads;
-    }
-    let ((mut photons, samples), contrasts) = rayon::join(
-        || {
-            let mut photons = join(&bands, |band| &band.iteration.photons);
-            for splat in &caustic.splats {
-                photons[splat.pixel as usize] += splat.radiance;
-            }
-            (photons, join(&bands, |band| &band.iteration.samples))
-        },
-        || join(&bands, |band| &band.iteration.contrasts),
-    );
-    let lobes = bands.iter().map(|band| band.lobes.as_slice());
-    timed(&mut seconds.gather, || share_lobes(lobes, plan.camera.width, &mut photons));
-    Some(Iteration { photons, samples, contrasts, counters, seconds })
+    let (bands, of_bands): (Vec<Band>, Vec<Work>) = bands.collect::<Option<Vec<_>>>()?.into_iter().unzip();
+    let contribution =
+        timed(&mut work.seconds.gather, || Contribution::new(&bands, &caustic.splats, plan.camera.width));
+    work.add_bands(&of_bands);
+    [caustic.counters, global.counters, maps.counters()].into_iter().for_each(|counters| work.counters += counters);
+    Some(Iteration { contribution, work })
 }
 
-/// An iteration for some rows of the film, but for what their pixels share.
-struct Band {
-    iteration: Iteration,
-    /// See [`seen_lobes`].
-    lobes: Vec<Option<SeenLobe>>,
-}
-
-/// What the camera sees in some rows of the film.
+/// The camera pass and the gather pass for one band of rows.
 fn render_band(
     world: &World,
     plan: &Plan,
@@ -85,27 +57,27 @@ fn render_band(
     seed: u64,
     i: u64,
     cancel: Cancel,
-) -> Option<Band> {
-    let mut seconds = PassSeconds::default();
-    let seen = timed(&mut seconds.camera, || camera_pass(world, plan, rows, seed, i, cancel))?;
-    let (gathered, mut counters) = timed(&mut seconds.gather, || gather(world, plan, maps, &seen, i, cancel))?;
-    counters += seen.counters;
-    let (pixels, first) = (seen.samples.len(), rows.start * plan.camera.width);
-    let (mut photons, mut contrasts) = (vec![Rgb::ZERO; pixels], vec![Contrast::default(); pixels]);
-    let mut lobes = seen_lobes(world, plan, &seen.visible_points, rows, i);
-    for (point, found) in seen.visible_points.iter().zip(&gathered) {
-        let place = (point.pixel - first) as usize;
-        contrasts[place] += found.contrast;
-        match lobes.get_mut(place) {
-            Some(Some(lobe)) if !point.seen_directly => lobe.found += found.radiance,
-            _ => photons[place] += found.radiance,
-        }
-    }
-    let iteration = Iteration { photons, samples: seen.samples, contrasts, counters, seconds };
-    Some(Band { iteration, lobes })
+) -> Option<(Band, Work)> {
+    let mut work = Work::default();
+    let seen = timed(&mut work.seconds.camera, || camera_pass(world, plan, rows, seed, i, cancel))?;
+    let (gathered, counters) = timed(&mut work.seconds.gather, || gather(world, plan, maps, &seen, i, cancel))?;
+    work.counters = [seen.counters, counters].into_iter().sum();
+    Some((Band::new(world, plan, rows, seen, &gathered, i), work))
 }
 
-/// Runs a pass and adds its wall-clock time.
+impl Work {
+    /// Adds the work of bands, which all threads did at once: each counts for its share of the wall-clock time.
+    fn add_bands(&mut self, bands: &[Self]) {
+        let threads = rayon::current_num_threads() as f64;
+        for band in bands {
+            self.counters += band.counters;
+            self.seconds.camera += band.seconds.camera / threads;
+            self.seconds.gather += band.seconds.gather / threads;
+        }
+    }
+}
+
+/// Runs a pass and adds its wall-clock time, seconds.
 fn timed<T>(seconds: &mut f64, pass: impl FnOnce() -> T) -> T {
     let start = Instant::now();
     let result = pass();

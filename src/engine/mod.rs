@@ -3,10 +3,10 @@
 //! [`Session`] renders one scene, iteration by iteration, on the caller's thread; [`Engine`] runs sessions on a thread of
 //! its own, the newest scene at any time, and begins each with a quick draft.
 
+mod convergence_rates;
 mod film_sums;
 mod frame;
 mod iteration;
-mod noise_laws;
 mod session;
 mod shared;
 mod worker;

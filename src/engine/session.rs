@@ -1,9 +1,9 @@
 use super::film_sums::FilmSums;
 use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
-use super::iteration::render_iteration;
+use super::iteration::{Iteration, render_iteration};
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Component, Counters, Measured, Plan};
+use crate::transport::{Cancel, Component, Contribution, Counters, FilmStatistics, Plan};
 use crate::world::{Camera, PrepareError, World, prepare};
 use std::sync::Arc;
 use std::time::Instant;
@@ -50,8 +50,8 @@ pub struct Session {
     summary: Arc<PlanSummary>,
     seed: u64,
     film: FilmSums,
-    /// Once there is an iteration.
-    measured: Option<Measured>,
+    /// `None` before the first iteration.
+    statistics: Option<FilmStatistics>,
     counters: Counters,
     passes: PassSeconds,
     seconds: f64,
@@ -74,7 +74,7 @@ impl Session {
             summary,
             seed,
             film,
-            measured: None,
+            statistics: None,
             counters: Counters::default(),
             passes,
             seconds: 0.0,
@@ -100,26 +100,29 @@ impl Session {
         let start = Instant::now();
         let number = self.film.iterations() + 1;
         let iteration = render_iteration(&self.world, &self.plan, self.seed, number, cancel);
-        if let Some(iteration) = &iteration {
+        let committed = iteration.map(|Iteration { contribution, work }| {
             let commit = Instant::now();
-            let (width, height) = (self.plan.camera.width, self.plan.camera.height);
-            let measured = self.measured.get_or_insert_with(|| Measured::new(width, height));
-            let weight = self.plan.weight(number);
-            let film = &mut self.film;
-            rayon::join(
-                || film.commit(weight, &iteration.photons, &iteration.samples),
-                || measured.add(number, &iteration.contrasts, &iteration.samples),
-            );
-            self.passes += iteration.seconds;
-            self.counters += iteration.counters;
-            if let Some(refined) = self.plan.refined(number, measured) {
-                self.plan = refined;
-                measured.forget_radii();
-            }
+            self.commit(number, &contribution);
+            self.counters += work.counters;
+            self.passes += work.seconds;
             self.passes.commit += commit.elapsed().as_secs_f64();
-        }
+        });
         self.seconds += start.elapsed().as_secs_f64();
-        iteration.map(|_| ())
+        committed
+    }
+
+    /// Adds an iteration to the film and to the measurements, and refines the plan where the schedule says so.
+    fn commit(&mut self, number: u64, contribution: &Contribution) {
+        let Contribution { photons, samples, differences } = contribution;
+        let (width, height) = (self.plan.camera.width, self.plan.camera.height);
+        let statistics = self.statistics.get_or_insert_with(|| FilmStatistics::new(width, height));
+        let weight = self.plan.weight(number);
+        let film = &mut self.film;
+        rayon::join(|| film.commit(weight, photons, samples), || statistics.add(number, differences, samples));
+        if let Some(refined) = self.plan.refined(number, statistics) {
+            self.plan = refined;
+            statistics.begin_refined();
+        }
     }
 
     /// Iterations in the film.
@@ -142,7 +145,7 @@ impl Session {
         if !self.may_estimate() {
             return None;
         }
-        self.film.error_estimate(self.measured.as_ref().map_or(0.0, Measured::squared_bias))
+        self.film.error_estimate(self.statistics.as_ref().map_or(0.0, FilmStatistics::squared_bias))
     }
 
     /// Seconds that iterations took.
@@ -166,9 +169,10 @@ impl Session {
         let start = Instant::now();
         let plan = self.plan.draft(coarseness);
         let (width, height) = (plan.camera.width, plan.camera.height);
-        let drawn = render_iteration(&self.world, &plan, self.seed, 1, cancel)?;
-        let stats = stats(&drawn.counters, drawn.seconds, start.elapsed().as_secs_f64());
-        let pixels = drawn.photons.iter().zip(&drawn.samples).map(|(photons, samples)| *photons + samples.mean());
+        let Iteration { contribution, work } = render_iteration(&self.world, &plan, self.seed, 1, cancel)?;
+        let stats = stats(&work.counters, work.seconds, start.elapsed().as_secs_f64());
+        let Contribution { photons, samples, .. } = &contribution;
+        let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());
         let image = LinearImage { width, height, pixels: pixels.collect() };
         Some(Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) })
     }
@@ -178,7 +182,7 @@ impl Session {
         let distance = self.world.camera.position.distance(self.world.center);
         Stats {
             iterations: self.film.iterations(),
-            radius: self.plan.radius_at(distance, self.film.iterations()),
+            radius: self.plan.mean_radius(distance, self.film.iterations()),
             error_estimate: self.error_estimate(),
             ..stats(&self.counters, self.passes, self.seconds)
         }

@@ -1,31 +1,33 @@
+//! Work counters.
+
 use serde::Serialize;
 use std::iter::Sum;
 use std::ops::AddAssign;
 
-/// What passes did: proof of what was needed and what was skipped.
+/// How much work the passes did: tests prove by it that needless work is skipped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
-    /// Rays that looked for the nearest surface.
+    /// Rays traced to the nearest surface.
     pub rays: u64,
-    /// Rays that only asked whether something is in between.
+    /// Shadow rays: rays that only test whether a segment is free.
     pub shadow_rays: u64,
-    /// Paths that left a light to find caustics.
+    /// Photon paths emitted for caustics.
     pub caustic_paths: u64,
-    /// Paths that left a light to find interreflection.
+    /// Photon paths emitted for interreflection.
     pub global_paths: u64,
-    /// Photons that arrived and were kept.
+    /// Photons stored in a map.
     pub photons_stored: u64,
-    /// Photons added to the film without a map.
+    /// Photons splatted to the film without a map.
     pub splats: u64,
-    /// Density estimates in the map of caustic photons.
+    /// Density estimates in the caustic map.
     pub caustic_gathers: u64,
-    /// Density estimates in the map of global photons.
+    /// Density estimates in the maps of interreflection.
     pub global_gathers: u64,
     /// Photon maps built.
     pub map_builds: u64,
-    /// Values read from textures.
+    /// Texture lookups.
     pub texture_lookups: u64,
-    /// Contributions that were not finite and were left out.
+    /// Contributions left out of the film because they were not finite.
     pub dropped_samples: u64,
 }
 

@@ -11,7 +11,7 @@ pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
         ui.horizontal_wrapped(|ui| {
             let (mark, color) = if note.rendered { ("✔", palette.success) } else { ("–", palette.warning) };
             ui.colored_label(color, mark);
-            ui.label(&note.what);
+            ui.label(note.item.to_string());
             let how = if note.rendered { "" } else { "skipped: " };
             ui.weak(format!("{how}{}", note.reason));
         });

@@ -1,19 +1,19 @@
-//! Whether there is interreflection, and which paths look for it.
+//! Whether there is interreflection, and which photon paths find it.
 
-use super::notes::Notes;
-use super::paths::{of_pixels, power, share};
+use super::light_importance;
+use super::notes::{Notes, PlanItem};
+use super::paths::{allocate, of_pixels, power};
 use crate::geometry::Primitive;
-use crate::transport::relevance;
 use crate::world::World;
 
-/// Paths for interreflection in a full iteration, for each pixel: about as much work as the pixel's own paths.
+/// Photon paths for interreflection in a full iteration, for each pixel: about as much work as the pixel's camera paths.
 const GLOBAL_PATHS_PER_PIXEL: f64 = 4.0;
-/// If no more of a light's paths reach the view, it is said to be out of it.
-const FEW: f64 = 0.01;
+/// Importance of a light below which a note calls it out of view.
+const LOW_IMPORTANCE: f64 = 0.01;
 
-/// Paths that look for interreflection in a full iteration, by light; empty where there is none.
+/// Photon paths for interreflection in a full iteration, by light; empty without interreflection.
 pub(super) fn plan(world: &World, notes: &mut Notes) -> Vec<u64> {
-    const WHAT: &str = "interreflection";
+    const ITEM: PlanItem = PlanItem::Interreflection;
     let scattering: Vec<u32> = (0..world.surfaces.len() as u32).filter(|&p| world.scattered_bound(p) > 0.0).collect();
     let needless = if world.max_bounces < 2 {
         Some("max_bounces leaves only direct light")
@@ -25,39 +25,40 @@ pub(super) fn plan(world: &World, notes: &mut Notes) -> Vec<u64> {
         None
     };
     if let Some(reason) = needless {
-        notes.skip(WHAT, reason);
+        notes.skip(ITEM, reason);
         return Vec::new();
     }
     notes.render(
-        WHAT,
+        ITEM,
         match scattering.len() {
-            1 => "1 surface scatters light, and some of it comes back".to_owned(),
+            1 => "1 surface scatters light that may return to it".to_owned(),
             surfaces => format!("{surfaces} surfaces scatter light to each other"),
         },
     );
     let total = of_pixels(world.camera.pixel_count(), GLOBAL_PATHS_PER_PIXEL);
-    share(weights(world, notes), total)
+    allocate(weights(world, notes), total)
 }
 
-/// Paths of photons that bring light to Phong lobes: those for interreflection, where there are lobes that may be divided.
+/// Photon paths that may bring light to Phong lobes, by light: those for interreflection; empty without a lobe that gathers photons.
 pub(super) fn plan_gloss(world: &World, global_paths: &[u64], notes: &mut Notes) -> Vec<u64> {
-    const WHAT: &str = "photons for gloss";
-    let glossy = (0..world.surfaces.len() as u32).filter(|&p| world.may_divide_lobes(p)).count();
+    const ITEM: PlanItem = PlanItem::GlossyPhotons;
+    let glossy = (0..world.surfaces.len() as u32).filter(|&p| world.gathers_in_lobes(p)).count();
     if glossy == 0 || global_paths.is_empty() {
         let reason = if glossy == 0 {
             "no surface has a wide Phong lobe without textures"
         } else {
             "there is no interreflection"
         };
-        notes.skip(WHAT, reason);
+        notes.skip(ITEM, reason);
         return Vec::new();
     }
-    notes.render(WHAT, format!("{glossy} surfaces have wide Phong lobes; photons bring them light of bright spots"));
+    notes
+        .render(ITEM, format!("{glossy} surfaces have wide Phong lobes; photons bring them the light of bright spots"));
     global_paths.to_vec()
 }
 
-/// Whether light that a surface scatters may come back to it: it is not convex towards the lights, or a mirror or glass
-/// sends light back within the bounces.
+/// Whether light that a surface scatters may return to it: over a mirror or glass within the bounces, or because the surface is not
+/// convex towards the lights.
 fn may_light_itself(world: &World, primitive: u32) -> bool {
     let sent_back = world.max_bounces >= 3 && (0..world.surfaces.len() as u32).any(|p| world.is_specular(p));
     let is_convex = match &world.aggregate.primitives()[primitive as usize] {
@@ -70,14 +71,16 @@ fn may_light_itself(world: &World, primitive: u32) -> bool {
     sent_back || !is_convex
 }
 
-/// What paths of each light are worth that are not aimed: where a part `p` of them matters, the variance of what they find goes
-/// with `power^2 p`, and is least for all together with paths in proportion to its root.
+/// Weights of the lights' path counts. A light's contribution, of whose paths the fraction `p` matters, has a variance in proportion to
+/// `power^2 p`; the sum over all lights is least for counts in proportion to the root.
 fn weights(world: &World, notes: &mut Notes) -> Vec<f64> {
-    let relevances = relevance::of_lights(world);
-    let (all, few) = (relevances.len(), relevances.iter().filter(|&&part| part < FEW).count());
-    if 0 < few && few < all {
-        let reason = format!("of {few} of {all} lights hardly any reach the view");
-        notes.skip("most paths of lights out of view", &reason);
+    let importances = light_importance::of_lights(world);
+    let all = importances.len();
+    let low = importances.iter().filter(|&&importance| importance < LOW_IMPORTANCE).count();
+    if 0 < low && low < all {
+        let reason = format!("hardly any paths of {low} of {all} lights reach the view");
+        notes.skip(PlanItem::PathsOutOfView, &reason);
     }
-    world.lights.iter().zip(relevances).map(|(light, part)| power(light) * part.sqrt()).collect()
+    let weight = |(light, importance): (_, f64)| power(light) * importance.sqrt();
+    world.lights.iter().zip(importances).map(weight).collect()
 }

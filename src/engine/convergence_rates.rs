@@ -1,0 +1,128 @@
+//! How fast the noise of stratified samples falls, which nobody knows beforehand.
+
+/// The variance of the mean of `n` samples of a pixel falls like `n` to one of these negative powers, or to one in between: 1 in
+/// glossy reflections, 1.5 where an edge runs through the pixel \[Mitchell96\], up to 3 where its light is smooth and `n` a
+/// power of two \[Owen97\].
+const POWERS: [f64; 5] = [1.0, 1.5, 2.0, 2.5, 3.0];
+/// The place of the greatest power for other numbers: samples that are not yet balanced by others err by themselves.
+const UNBALANCED: usize = 1;
+
+/// What two parts of each pixel's samples tell, for each power: sums over pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ConvergenceRates {
+    /// The variance of the mean of samples of weight 1.
+    of_one: [f64; POWERS.len()],
+    /// The variance of the mean of all.
+    of_all: [f64; POWERS.len()],
+}
+
+impl ConvergenceRates {
+    /// Adds a pixel, the means of whose first and other samples differ by so much, squared and summed over channels.
+    pub(super) fn include(&mut self, squared_difference: f64, first: f64, other: f64) {
+        if !(first > 0.0 && other > 0.0) {
+            return;
+        }
+        let all = first + other;
+        let (of_first, of_other, of_all) = (variances(first), variances(other), variances(all));
+        let last = if is_power_of_two(all) { POWERS.len() - 1 } else { UNBALANCED };
+        for (k, (one_sum, all_sum)) in self.of_one.iter_mut().zip(&mut self.of_all).enumerate() {
+            let k = k.min(last);
+            // The parts complement each other, so that their errors do not vary independently: by how much follows from the
+            // law, which holds for the parts and for all, whose mean is that of the parts.
+            let squared = |weight: f64, variance: f64| weight * weight * variance;
+            let covariances = squared(all, of_all[k]) - squared(first, of_first[k]) - squared(other, of_other[k]);
+            let of_difference = of_first[k] + of_other[k] - covariances / (first * other);
+            let of_one = squared_difference / of_difference;
+            *one_sum += of_one;
+            *all_sum += of_one * of_all[k];
+        }
+    }
+
+    /// The squared noise of the mean of all samples, by the law that fits both these parts and those of half as many samples:
+    /// by it both say the same of one sample. The slowest law that there is without those.
+    pub(super) fn squared_noise(&self, halves: Option<&Self>) -> f64 {
+        let Some(halves) = halves else { return self.of_all[0] };
+        // A law that is too slow says that one sample deviates the less the more there are.
+        let growth = |k: usize| self.of_one[k] / halves.of_one[k];
+        let Some(upper) = (0..POWERS.len()).find(|&k| !(growth(k) < 1.0)) else {
+            return self.of_all[POWERS.len() - 1];
+        };
+        let Some(lower) = upper.checked_sub(1) else { return self.of_all[0] };
+        let part = growth(lower).ln() / (growth(lower).ln() - growth(upper).ln());
+        self.of_all[lower] * (self.of_all[upper] / self.of_all[lower]).powf(part)
+    }
+}
+
+fn is_power_of_two(weight: f64) -> bool {
+    weight.fract() == 0.0 && (weight as u64).is_power_of_two()
+}
+
+/// The variance of the mean of samples of this weight for each power, where that of weight 1 has the variance 1.
+fn variances(weight: f64) -> [f64; POWERS.len()] {
+    let (x, root) = (weight.recip(), weight.recip().sqrt());
+    [x, x * root, x * x, x * x * root, x * x * x]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variances_fall_like_the_powers() {
+        for (variance, power) in variances(7.0).into_iter().zip(POWERS) {
+            assert!((variance / 7f64.powf(-power) - 1.0).abs() < 1e-12, "{power}");
+        }
+    }
+
+    /// What is expected of pixels whose variance falls like this power, with so many samples in the parts.
+    fn laws(power: f64, first: f64, other: f64) -> ConvergenceRates {
+        let all = first + other;
+        let squared = |n: f64| n.powf(2.0 - power);
+        let covariances = squared(all) - squared(first) - squared(other);
+        let expected = first.powf(-power) + other.powf(-power) - covariances / (first * other);
+        let mut laws = ConvergenceRates::default();
+        laws.include(expected, first, other);
+        laws
+    }
+
+    #[test]
+    fn the_law_that_fits_is_found() {
+        let found = |power: f64, first: f64, other: f64| {
+            let noise = laws(power, first, other).squared_noise(Some(&laws(power, 1.0, 1.0)));
+            assert!((noise / (first + other).powf(-power) - 1.0).abs() < 0.05, "{power} {first} {other}: {noise}");
+        };
+        for power in [1.0, 1.2, 1.5, 1.7, 2.0, 2.3, 3.0] {
+            [[2.0, 2.0], [2.0, 6.0], [32.0, 32.0]].into_iter().for_each(|[first, other]| found(power, first, other));
+        }
+        for power in [1.0, 1.2, 1.5] {
+            [[8.0, 4.0], [8.0, 64.0], [24.0, 32.0]].into_iter().for_each(|[first, other]| found(power, first, other));
+        }
+    }
+
+    #[test]
+    fn samples_that_others_do_not_balance_count_as_much_as_an_edge_would() {
+        let noise = laws(3.0, 8.0, 4.0).squared_noise(Some(&laws(3.0, 4.0, 4.0)));
+        assert_eq!(noise, laws(3.0, 8.0, 4.0).of_all[UNBALANCED]);
+    }
+
+    #[test]
+    fn slower_and_faster_laws_than_there_are_count_as_the_last_ones() {
+        let slow = laws(1.0, 2.0, 2.0).squared_noise(Some(&laws(3.0, 1.0, 1.0)));
+        assert!(slow > 0.0 && slow <= laws(1.0, 2.0, 2.0).of_all[0], "{slow}");
+        let mut grown = laws(1.0, 2.0, 2.0);
+        grown.include(1e3, 2.0, 2.0);
+        assert_eq!(grown.squared_noise(Some(&laws(1.0, 1.0, 1.0))), grown.of_all[0]);
+        assert_eq!(grown.squared_noise(None), grown.of_all[0]);
+    }
+
+    #[test]
+    fn without_samples_or_differences_there_is_no_noise() {
+        let mut none = ConvergenceRates::default();
+        none.include(1.0, 0.0, 2.0);
+        assert_eq!(none, ConvergenceRates::default());
+        none.include(0.0, 2.0, 2.0);
+        assert_eq!(none.squared_noise(Some(&laws(1.0, 1.0, 1.0))), 0.0);
+        assert_eq!(none.squared_noise(Some(&none)), 0.0);
+        assert!(laws(1.5, 2.0, 2.0).squared_noise(Some(&none)) > 0.0, "what is new");
+    }
+}

@@ -1,0 +1,148 @@
+//! Direct light: next event estimation, with multiple importance sampling against the Phong lobe.
+
+use super::emission;
+use super::light_sampler::LightSampler;
+use crate::geometry::Sphere;
+use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
+use crate::transport::counters::Counters;
+use crate::transport::points::{GlossyMis, MisVertex, Vertex, ViewingLobe, bsdf};
+use crate::world::{Light, World};
+use glam::DVec3;
+
+/// What next event estimation reads.
+#[derive(Clone, Copy)]
+pub(in crate::transport) struct DirectLight<'a> {
+    /// The scene with its lights.
+    pub(in crate::transport) world: &'a World,
+    /// Draws lights where there are many.
+    pub(in crate::transport) light_sampler: &'a LightSampler,
+    /// Weights of what Phong lobes show.
+    pub(in crate::transport) glossy_mis: &'a GlossyMis,
+}
+
+/// A sampled point of a light, seen from a surface point.
+struct LightSample {
+    position: DVec3,
+    /// Unit direction towards the light.
+    wi: DVec3,
+    /// Radiance over the density of the direction; intensity over the squared distance for a point light.
+    weight: Rgb,
+    /// Density of the direction per steradian; `None` for a point light, which no lobe can hit.
+    pdf: Option<f64>,
+}
+
+/// Least distance at which lights shine, in radii of the scene: so the light of a lamp on a surface stays finite.
+const NEAREST: f64 = 1e-4;
+
+impl DirectLight<'_> {
+    /// Radiance from a vertex towards `wo` of light that comes straight from the lights, times the MIS weight of camera paths.
+    pub(in crate::transport) fn radiance(
+        &self,
+        vertex: &Vertex,
+        viewing_lobe: Option<ViewingLobe>,
+        sampler: &mut Sampler,
+        counters: &mut Counters,
+    ) -> Rgb {
+        let mut radiance = Rgb::ZERO;
+        // A number is drawn only where lights are drawn.
+        let u = if self.light_sampler.draws() { sampler.next_1d() } else { 0.0 };
+        self.light_sampler.sample(vertex, u, |light, weight| {
+            radiance += weight * self.of_light(light, vertex, viewing_lobe, sampler, counters);
+        });
+        radiance
+    }
+
+    fn of_light(
+        &self,
+        light: usize,
+        vertex: &Vertex,
+        viewing_lobe: Option<ViewingLobe>,
+        sampler: &mut Sampler,
+        counters: &mut Counters,
+    ) -> Rgb {
+        let sample = sample_light(self.world, &self.world.lights[light], vertex.point.position, sampler);
+        let Some(sample) = sample else { return Rgb::ZERO };
+        let (cos_side, cos) = (sample.wi.dot(vertex.n_side), sample.wi.dot(vertex.n_shade));
+        if cos_side <= 0.0 || cos <= 0.0 {
+            return Rgb::ZERO;
+        }
+        let glossy = bsdf::eval_glossy(&vertex.scattering, vertex.n_shade, vertex.wo, sample.wi);
+        let balance = sample.pdf.map_or(1.0, |pdf| {
+            pdf / (pdf + bsdf::pdf_glossy(&vertex.scattering, vertex.n_shade, vertex.wo, sample.wi))
+        });
+        let reflected = bsdf::eval_diffuse(&vertex.scattering) + glossy * balance as f32;
+        let seen = viewing_lobe.map(|lobe| MisVertex::new(lobe, vertex, sample.wi));
+        let weight = self.camera_weight(light, sample.position, seen);
+        let radiance = reflected * sample.weight * (weight * cos) as f32;
+        if radiance == Rgb::ZERO {
+            return Rgb::ZERO;
+        }
+        counters.shadow_rays += 1;
+        let shadow_ray = Ray {
+            // Short of the light's own surface.
+            t_max: 1.0 - 1e-9,
+            ..Ray::between(self.world.leave(&vertex.point, sample.wi), sample.position)
+        };
+        if self.world.aggregate.occluded(&shadow_ray) { Rgb::ZERO } else { radiance }
+    }
+
+    /// The MIS weight of camera paths, 0 to 1, for light that a vertex scatters from a point of a light to the lobe that shows the vertex; 1
+    /// without a lobe.
+    pub(in crate::transport) fn camera_weight(&self, light: usize, light_point: DVec3, seen: Option<MisVertex>) -> f64 {
+        let Some(MisVertex { lobe, position, scattered }) = seen else { return 1.0 };
+        let density = scattered * emission::density(&self.world.lights[light], light_point, position);
+        self.glossy_mis.camera_weight(light, density, lobe)
+    }
+}
+
+fn sample_light(world: &World, light: &Light, from: DVec3, sampler: &mut Sampler) -> Option<LightSample> {
+    match light {
+        Light::Point { position, intensity } => {
+            let offset = *position - from;
+            let distance = offset.length();
+            let nearest = NEAREST * world.radius;
+            let weight = *intensity / distance.max(nearest).powi(2) as f32;
+            (distance > 0.0).then(|| LightSample { position: *position, wi: offset / distance, weight, pdf: None })
+        }
+        Light::Sphere { sphere, radiance } => {
+            let one_minus_cos = subtended(sphere, from)?;
+            let axis = (sphere.center - from).try_normalize()?;
+            let wi = OrthonormalBasis::from_normal(axis)
+                .world_from_local(warp::uniform_cone(sampler.next_2d(), one_minus_cos));
+            let t = sphere.intersect(&Ray::new(from, wi)).unwrap_or_else(|| (sphere.center - from).dot(wi));
+            let pdf = warp::pdf_uniform_cone(one_minus_cos);
+            Some(LightSample { position: from + t * wi, wi, weight: *radiance / pdf as f32, pdf: Some(pdf) })
+        }
+        Light::Quad { quad, radiance } => {
+            let u = sampler.next_2d();
+            let position = quad.position(u.x, u.y);
+            let offset = position - from;
+            let distance = offset.length();
+            let wi = offset.try_normalize()?;
+            let cos = -wi.dot(quad.normal());
+            if cos <= 0.0 {
+                return None;
+            }
+            let pdf = distance.max(NEAREST * world.radius).powi(2) / (cos * quad.area());
+            Some(LightSample { position, wi, weight: *radiance / pdf as f32, pdf: Some(pdf) })
+        }
+    }
+}
+
+/// `1 - cos` of the half angle under which a sphere appears; `None` from inside.
+fn subtended(sphere: &Sphere, from: DVec3) -> Option<f64> {
+    let sin2 = sphere.radius * sphere.radius / sphere.center.distance_squared(from);
+    // 1 - sqrt(1 - x) without cancellation for small x.
+    (sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
+}
+
+/// Density per steradian with which [`DirectLight`] at `from` samples the point of a light that a ray with unit direction `wi` met at
+/// this distance, with this normal there. The probability that the light is drawn is left out on both sides of the balance
+/// heuristic, whose weights still add up to 1.
+pub(in crate::transport) fn pdf_light(light: &Light, from: DVec3, wi: DVec3, distance: f64, n_light: DVec3) -> f64 {
+    match light {
+        Light::Point { .. } => 0.0,
+        Light::Sphere { sphere, .. } => subtended(sphere, from).map_or(0.0, warp::pdf_uniform_cone),
+        Light::Quad { quad, .. } => distance * distance / (wi.dot(n_light).abs() * quad.area()),
+    }
+}

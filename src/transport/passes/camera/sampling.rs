@@ -1,0 +1,135 @@
+//! All camera samples of a pixel in an iteration, pixel by pixel.
+
+use super::batch::CameraBatch;
+use super::pixel::Pixel;
+use super::tracer::CameraTracer;
+use crate::geometry::Hit;
+use crate::math::{LANES, Ray, Sampler, Stream, sobol};
+use crate::transport::density::PixelSamples;
+use crate::transport::pass::{Cancel, Rows};
+use crate::transport::plan::Plan;
+use crate::world::World;
+use glam::DVec2;
+use std::ops::Range;
+
+/// Samples of a pixel that gather photons where the pixel shows different surfaces.
+const SAMPLES_OF_EDGE: usize = 4;
+/// Columns of a tile, whose rows are those of the pass.
+const TILE: u32 = 16;
+
+/// The samples of an iteration for every pixel of some rows; `None` when cancelled. The pass goes tile by tile: successive visible
+/// points are near each other, and so are their photons in memory.
+pub fn camera_pass(
+    world: &World,
+    plan: &Plan,
+    rows: &Rows,
+    seed: u64,
+    iteration: u64,
+    cancel: Cancel,
+) -> Option<CameraBatch> {
+    let width = plan.camera.width;
+    let pixels = rows.len() * width as usize;
+    let batch = CameraBatch { samples: vec![PixelSamples::default(); pixels], ..CameraBatch::default() };
+    let mut tracer = CameraTracer::new(world, plan, batch);
+    let mut pixel = Pixel::new();
+    for left in (0..width).step_by(TILE as usize) {
+        if cancel.is_cancelled() {
+            return None;
+        }
+        for row in rows.clone() {
+            let columns = left..(left + TILE).min(width);
+            let mut first_rays = trace_first_rays(world, plan, row, columns.clone(), seed, iteration);
+            tracer.batch.counters.rays += first_rays.len() as u64;
+            let mut rest = first_rays.as_mut_slice();
+            for column in columns {
+                pixel.begin(row * width + column);
+                let count = plan.camera_samples(pixel.index, iteration).count();
+                let own = rest.split_off_mut(..count).unwrap_or_default();
+                let index = ((row - rows.start) * width + column) as usize;
+                tracer.batch.samples[index] = sample_pixel(&mut tracer, plan, &mut pixel, own, iteration);
+            }
+        }
+    }
+    Some(tracer.batch)
+}
+
+/// The first ray of a camera path and what it met.
+struct FirstRay {
+    sampler: Sampler,
+    ray: Ray,
+    hit: Option<Hit>,
+}
+
+/// The first rays of all samples of an iteration for some pixels of a row, pixel by pixel. Packets of rays go down the trees together.
+fn trace_first_rays(
+    world: &World,
+    plan: &Plan,
+    row: u32,
+    columns: Range<u32>,
+    seed: u64,
+    iteration: u64,
+) -> Vec<FirstRay> {
+    let camera = &plan.camera;
+    let samples = |column| plan.camera_samples(row * camera.width + column, iteration);
+    let mut first_rays: Vec<FirstRay> = columns
+        .flat_map(|column| samples(column).map(move |index| (column, index)))
+        .map(|(column, index)| {
+            let pixel = u64::from(row * camera.width + column);
+            let mut sampler = Sampler::new(seed, plan.stream(Stream::Camera), pixel, index);
+            let ray = camera.ray(DVec2::new(f64::from(column), f64::from(row)) + sampler.next_2d());
+            FirstRay { hit: None, sampler, ray }
+        })
+        .collect();
+    let mut packets = first_rays.chunks_exact_mut(LANES);
+    for packet in &mut packets {
+        let hits = world.aggregate.closest_hits(&std::array::from_fn(|k| packet[k].ray));
+        for (first, hit) in packet.iter_mut().zip(hits) {
+            first.hit = hit;
+        }
+    }
+    for first in packets.into_remainder() {
+        first.hit = world.aggregate.closest_hit(&first.ray);
+    }
+    first_rays
+}
+
+/// All samples of an iteration for one pixel. Where they meet one surface, one of them leaves visible points for all; at an edge
+/// several do. Density estimates at visible points are most of the work.
+fn sample_pixel(
+    tracer: &mut CameraTracer,
+    plan: &Plan,
+    pixel: &mut Pixel,
+    first_rays: &mut [FirstRay],
+    iteration: u64,
+) -> PixelSamples {
+    let count = first_rays.len();
+    let surface = |first: &FirstRay| first.hit.map_or(0, |hit| hit.primitive + 1);
+    let on_an_edge = first_rays.iter().any(|first| surface(first) != surface(&first_rays[0]));
+    let weight = plan.samples_weight(pixel.index, iteration);
+    let mut samples = PixelSamples { surface: surface(&first_rays[0]), weight, ..PixelSamples::default() };
+    let gathering = match (plan.gathers(), on_an_edge) {
+        (false, _) => 0,
+        (true, true) => count.min(SAMPLES_OF_EDGE),
+        (true, false) => 1,
+    };
+    // A random position in the sequence: every n-th point of the sequence would keep to one part of the pixel.
+    let random = sobol::mix64(u64::from(pixel.index) ^ sobol::mix64(iteration)) as usize;
+    let first = random % (count / gathering.max(1)) * gathering;
+    let first_point = tracer.batch.visible_points.len();
+    for (index, FirstRay { sampler, ray, hit }) in first_rays.iter_mut().enumerate() {
+        let gathers = (first..first + gathering).contains(&index);
+        pixel.gather_weight = if gathers { 1.0 / gathering as f32 } else { 0.0 };
+        samples.include(tracer.trace(pixel, *ray, *hit, sampler));
+    }
+    samples.is_heterogeneous = on_an_edge || pixel.is_textured;
+    let CameraBatch { visible_points, facets, counters, .. } = &mut tracer.batch;
+    pixel.complete(visible_points, facets, first_point, on_an_edge);
+    if !plan.finds_direct_light {
+        PixelSamples::default()
+    } else if samples.is_finite() {
+        samples
+    } else {
+        counters.dropped_samples += 1;
+        PixelSamples::default()
+    }
+}

@@ -1,0 +1,241 @@
+//! One camera path, which branches at glass.
+
+use super::batch::CameraBatch;
+use super::clearance::clearance;
+use super::pixel::Pixel;
+use crate::geometry::Hit;
+use crate::math::{Ray, Rgb, Sampler};
+use crate::transport::lights::{DirectLight, direct};
+use crate::transport::photons::photon;
+use crate::transport::plan::Plan;
+use crate::transport::points::{
+    Clearance, Facet, Media, MisVertex, SpecularEvent, Vertex, ViewingLobe, VisiblePoint, bsdf, roulette,
+};
+use crate::world::{Lobe, Surface, SurfacePoint, World};
+use arrayvec::ArrayVec;
+use glam::{DVec2, DVec3};
+
+/// Interfaces of a path at which both sides are followed; at further ones a random side is.
+const FOLLOWED_SPLITS: u32 = 2;
+/// Throughput below which a branch ends at random.
+const WEAK_BRANCH: f32 = 0.02;
+/// Most open branches: two at each followed split, with one continuation each.
+const MAX_BRANCHES: usize = 16;
+
+/// Traces the camera paths of some rows.
+pub(super) struct CameraTracer<'a> {
+    world: &'a World,
+    plan: &'a Plan,
+    direct: DirectLight<'a>,
+    /// What the paths found.
+    pub(super) batch: CameraBatch,
+    /// Branches of the present path still to follow.
+    branches: ArrayVec<Branch, MAX_BRANCHES>,
+}
+
+/// One branch of a camera path.
+#[derive(Clone, Debug)]
+struct Branch {
+    ray: Ray,
+    throughput: Rgb,
+    media: Media,
+    /// Scattering events so far.
+    bounces: u32,
+    /// Interfaces so far at which both sides were followed.
+    splits: u32,
+    /// Length of the path so far, scene units.
+    distance: f64,
+    last: LastEvent,
+    /// The last Phong lobe of the path.
+    viewing_lobe: Option<ViewingLobe>,
+}
+
+/// The last event of a branch.
+#[derive(Clone, Copy, Debug)]
+enum LastEvent {
+    /// The camera, a mirror or glass: no other technique finds emission here, except behind a Phong lobe.
+    Specular,
+    /// A Phong lobe at the point `from`, with this density of the direction; `seen` if another lobe shows it.
+    Glossy { from: DVec3, pdf: f64, seen: Option<MisVertex> },
+}
+
+impl<'a> CameraTracer<'a> {
+    /// A tracer that found nothing yet.
+    pub(super) fn new(world: &'a World, plan: &'a Plan, batch: CameraBatch) -> Self {
+        let direct = DirectLight { world, light_sampler: &plan.light_sampler, glossy_mis: &plan.glossy_mis };
+        Self { world, plan, direct, batch, branches: ArrayVec::new() }
+    }
+
+    /// Traces a path whose first ray met `hit`; returns the radiance of emission and direct light, and leaves visible points.
+    pub(super) fn trace(&mut self, pixel: &mut Pixel, ray: Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Rgb {
+        let first = Branch {
+            ray,
+            throughput: Rgb::ONE,
+            media: Media::default(),
+            bounces: 0,
+            splits: 0,
+            distance: 0.0,
+            last: LastEvent::Specular,
+            viewing_lobe: None,
+        };
+        let mut radiance = self.follow(first, hit, pixel, sampler);
+        while let Some(branch) = self.branches.pop() {
+            self.batch.counters.rays += 1;
+            let hit = self.world.aggregate.closest_hit(&branch.ray);
+            radiance += self.follow(branch, hit, pixel, sampler);
+        }
+        radiance
+    }
+
+    /// Follows a branch whose ray met `hit`; returns the radiance of emission and direct light there.
+    fn follow(&mut self, mut branch: Branch, hit: Option<Hit>, pixel: &mut Pixel, sampler: &mut Sampler) -> Rgb {
+        let Some(hit) = hit else {
+            return branch.throughput * self.world.background;
+        };
+        let point = self.world.surface_point(&branch.ray, hit);
+        branch.throughput *= branch.media.transmittance(self.world, hit.t);
+        branch.distance += hit.t;
+        let (object, material) = match self.world.surfaces[hit.primitive as usize] {
+            Surface::Light(light) => return self.emitted(light as usize, &branch, &point),
+            Surface::Object { object, material, .. } => (object, material),
+        };
+        if branch.bounces >= self.world.max_bounces {
+            return Rgb::ZERO;
+        }
+        let wo = -branch.ray.direction;
+        let vertex = Vertex::new(self.world, point, [object, material], wo, &mut self.batch.counters);
+        let is_textured_first = branch.bounces == 0 && vertex.material(self.world).lookups() > 0;
+        if branch.bounces == 0 {
+            self.add_first_vertex(&vertex, is_textured_first, pixel);
+        }
+        let mut radiance = Rgb::ZERO;
+        if vertex.scatters() && self.plan.finds_direct_light {
+            let direct = self.direct.radiance(&vertex, branch.viewing_lobe, sampler, &mut self.batch.counters);
+            radiance = branch.throughput * direct;
+        }
+        // A texture that is black here may not be black elsewhere in the pixel.
+        if pixel.gather_weight > 0.0 && (vertex.scatters() || is_textured_first) {
+            self.batch.visible_points.push(self.visible_point(&branch, &vertex, pixel));
+        }
+        self.branch_off(&branch, &vertex, sampler);
+        radiance
+    }
+
+    fn add_first_vertex(&self, vertex: &Vertex, is_textured: bool, pixel: &mut Pixel) {
+        pixel.is_textured |= is_textured;
+        if self.plan.gathers() {
+            let facet = Facet {
+                normal: vertex.n_shade.as_vec3(),
+                albedo: vertex.scattering.albedo,
+                tag: photon::tag(vertex.object, vertex.point.front, 0),
+                position: (vertex.point.position - self.world.center).as_vec3(),
+            };
+            pixel.add(facet, vertex.n_shade != vertex.n_side);
+        }
+    }
+
+    fn visible_point(&self, branch: &Branch, vertex: &Vertex, pixel: &Pixel) -> VisiblePoint {
+        let footprint = self.plan.camera.footprint(branch.distance);
+        let wanted = self.plan.wanted_clearance(footprint);
+        VisiblePoint {
+            pixel: pixel.index,
+            clearance: wanted.map_or(Clearance::FREE, |limits| clearance(self.world, vertex, limits)),
+            position: (vertex.point.position - self.world.center).as_vec3(),
+            n_side: vertex.n_side.as_vec3(),
+            n_shade: vertex.n_shade.as_vec3(),
+            wo: vertex.wo.as_vec3(),
+            throughput: branch.throughput * pixel.gather_weight,
+            scattering: vertex.scattering,
+            footprint: footprint as f32,
+            primitive: vertex.point.hit.primitive,
+            uv: DVec2::new(vertex.point.hit.u, vertex.point.hit.v),
+            tag: photon::tag(vertex.object, vertex.point.front, 0),
+            photon_bounces: (self.world.max_bounces - branch.bounces - 1).min(photon::MAX_TAG_BOUNCES),
+            mean_albedo: vertex.scattering.albedo,
+            spread: 0.0,
+            first_facet: 0,
+            facets: 0,
+            seen_directly: branch.bounces == 0,
+            on_an_edge: false,
+            blur: branch.viewing_lobe.map_or(0.0, |lobe| lobe.blur(branch.distance) as f32),
+        }
+    }
+
+    /// Radiance from a light's own surface.
+    fn emitted(&self, index: usize, branch: &Branch, point: &SurfacePoint) -> Rgb {
+        let light = &self.world.lights[index];
+        let direction = branch.ray.direction;
+        let radiance = branch.throughput * light.emitted(point.n_geom, -direction);
+        match branch.last {
+            // Caustic photons find the same light.
+            LastEvent::Specular if branch.viewing_lobe.is_some() => Rgb::ZERO,
+            LastEvent::Specular => radiance,
+            LastEvent::Glossy { from, pdf, seen } => {
+                let pdf_direct = direct::pdf_light(light, from, direction, from.distance(point.position), point.n_geom);
+                let weight = self.direct.camera_weight(index, point.position, seen);
+                radiance * (weight * pdf / (pdf + pdf_direct)) as f32
+            }
+        }
+    }
+
+    /// Goes on along mirrors, glass and Phong lobes.
+    fn branch_off(&mut self, branch: &Branch, vertex: &Vertex, sampler: &mut Sampler) {
+        if matches!(vertex.scattering.lobe, Lobe::Phong { .. }) {
+            return self.branch_in_lobe(branch, vertex, sampler);
+        }
+        let Some(event) = SpecularEvent::at(self.world, vertex, &branch.media) else { return };
+        if event.refracted.is_some() && branch.splits < FOLLOWED_SPLITS {
+            for next in [Some(event.reflected), event.refracted].into_iter().flatten() {
+                let fraction = next.fraction as f32;
+                let mut split = branch.after(self.world, vertex, next.direction, next.radiance_weight());
+                split.throughput *= fraction;
+                split.splits += 1;
+                split.media = next.media;
+                self.push(split, sampler);
+            }
+        } else {
+            // A number is drawn only where there is a choice.
+            let u = if event.refracted.is_some() { sampler.next_1d() } else { 0.0 };
+            let next = event.choose(u);
+            let mut single = branch.after(self.world, vertex, next.direction, next.radiance_weight());
+            single.media = next.media;
+            self.push(single, sampler);
+        }
+    }
+
+    fn branch_in_lobe(&mut self, branch: &Branch, vertex: &Vertex, sampler: &mut Sampler) {
+        let u = sampler.next_2d();
+        let sampled = bsdf::sample_glossy(&vertex.scattering, vertex.n_shade, vertex.n_side, vertex.wo, u);
+        let Some((wi, weight)) = sampled else { return };
+        let pdf = bsdf::pdf_glossy(&vertex.scattering, vertex.n_shade, vertex.wo, wi);
+        let mut next = branch.after(self.world, vertex, wi, weight);
+        let seen = branch.viewing_lobe.map(|lobe| MisVertex::new(lobe, vertex, wi));
+        next.last = LastEvent::Glossy { from: vertex.point.position, pdf, seen };
+        next.viewing_lobe = self.plan.glossy_mis.viewing_lobe(self.world, vertex, wi, branch.distance);
+        self.push(next, sampler);
+    }
+
+    fn push(&mut self, mut branch: Branch, sampler: &mut Sampler) {
+        let Some(survival) = roulette(branch.throughput.max_element(), WEAK_BRANCH, sampler) else { return };
+        branch.throughput /= survival;
+        if self.branches.try_push(branch).is_err() {
+            self.batch.counters.dropped_samples += 1;
+        }
+    }
+}
+
+impl Branch {
+    /// The branch after a scattering event with this weight.
+    fn after(&self, world: &World, vertex: &Vertex, direction: DVec3, weight: Rgb) -> Self {
+        Self {
+            ray: vertex.ray(world, direction),
+            throughput: self.throughput * weight,
+            media: self.media.clone(),
+            bounces: self.bounces + 1,
+            splits: self.splits,
+            distance: self.distance,
+            last: LastEvent::Specular,
+            viewing_lobe: self.viewing_lobe,
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! The caustic photon pass: photons that only mirrors and glass have touched, from the light to the first surface that scatters them.
+//!
+//! Where the camera sees that surface directly and the caustic is sharp, the photon is splatted to the film (light tracing). Density
+//! estimates serve caustics that are smooth, or seen in mirrors and through glass.
+
+use crate::math::{Ray, Rgb, Sampler, Stream};
+use crate::transport::counters::Counters;
+use crate::transport::lights::emission::Emission;
+use crate::transport::pass::Cancel;
+use crate::transport::photons::Photon;
+use crate::transport::photons::path_blocks::{concat, path_blocks};
+use crate::transport::plan::{CausticPlan, Plan};
+use crate::transport::points::bsdf::{self, MAX_SHADING_FACTOR};
+use crate::transport::points::{Media, SpecularEvent, Vertex, roulette};
+use crate::world::{Surface, World};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Fraction of the emitted flux below which a branch ends at random.
+const WEAK_BRANCH: f32 = 0.03;
+
+/// A photon's light in a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Splat {
+    /// Index of the pixel, row by row from the top.
+    pub pixel: u32,
+    /// Radiance, averaged over the pixel.
+    pub radiance: Rgb,
+}
+
+/// The photons and splats of a caustic photon pass.
+#[derive(Clone, Debug, Default)]
+pub struct CausticPhotons {
+    /// Photons for the map; empty where no density estimate needs them.
+    pub photons: Vec<Photon>,
+    /// Light for the film; none in pixels whose density estimates find directly seen caustics.
+    pub splats: Vec<Splat>,
+    /// Work done.
+    pub counters: Counters,
+}
+
+/// The caustic photons of one iteration, in the order of their paths; `None` when cancelled.
+pub fn caustic_photon_pass(
+    world: &World,
+    plan: &Plan,
+    seed: u64,
+    iteration: u64,
+    cancel: Cancel,
+) -> Option<CausticPhotons> {
+    let Some(caustics) = &plan.caustics else { return Some(CausticPhotons::default()) };
+    let paths = |&count: &u64| plan.paths(count, iteration);
+    let to_map = plan.needs_caustic_map(iteration);
+    let blocks: Vec<CausticPhotons> = path_blocks(caustics.paths.iter().map(paths))
+        .into_par_iter()
+        .map(|block| {
+            let mut tracer = CausticTracer::new(world, plan, caustics, iteration, to_map);
+            let paths = paths(&caustics.paths[block.light]);
+            let count = paths.end - paths.start;
+            // One sequence over all iterations: its points keep filling each other's gaps.
+            for index in block.paths.clone() {
+                let sampler = Sampler::new(seed, plan.stream(Stream::CausticPhoton), block.light as u64, index);
+                tracer.trace(block.light, count, sampler);
+            }
+            (!cancel.is_cancelled()).then_some(tracer.found)
+        })
+        .collect::<Option<_>>()?;
+    Some(CausticPhotons {
+        photons: concat(&blocks, |block| &block.photons),
+        splats: concat(&blocks, |block| &block.splats),
+        counters: blocks.iter().map(|block| block.counters).sum(),
+    })
+}
+
+/// Traces caustic photon paths, which branch at glass.
+struct CausticTracer<'a> {
+    world: &'a World,
+    plan: &'a Plan,
+    caustics: &'a CausticPlan,
+    iteration: u64,
+    to_map: bool,
+    found: CausticPhotons,
+    /// Branches of the present path still to follow.
+    branches: Vec<Branch>,
+}
+
+/// One branch of a path.
+struct Branch {
+    ray: Ray,
+    flux: Rgb,
+    media: Media,
+    /// Mirrors and interfaces so far.
+    bounces: u32,
+}
+
+impl<'a> CausticTracer<'a> {
+    fn new(world: &'a World, plan: &'a Plan, caustics: &'a CausticPlan, iteration: u64, to_map: bool) -> Self {
+        Self { world, plan, caustics, iteration, to_map, found: CausticPhotons::default(), branches: Vec::new() }
+    }
+
+    /// Traces one of so many paths of a light.
+    fn trace(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
+        self.found.counters.caustic_paths += 1;
+        let emitted = self.caustics.projection_maps[light].emit(&self.world.lights[light], &mut sampler);
+        let Some(Emission { origin, direction, flux }) = emitted else { return };
+        let flux = flux / path_count as f32;
+        let weak = WEAK_BRANCH * flux.max_element();
+        let ray = Ray { t_min: 1e-9 * self.world.radius, ..Ray::new(origin, direction) };
+        self.branches.push(Branch { ray, flux, media: Media::default(), bounces: 0 });
+        while let Some(branch) = self.branches.pop() {
+            self.follow(branch, weak, &mut sampler);
+        }
+    }
+
+    /// Follows a branch to the next surface: leaves a photon where the surface scatters, branches off where it mirrors or refracts.
+    fn follow(&mut self, mut branch: Branch, weak: f32, sampler: &mut Sampler) {
+        self.found.counters.rays += 1;
+        let Some(hit) = self.world.aggregate.closest_hit(&branch.ray) else { return };
+        let Surface::Object { object, material, .. } = self.world.surfaces[hit.primitive as usize] else { return };
+        if branch.bounces == 0 && !self.world.materials[material as usize].is_specular() {
+            return;
+        }
+        let point = self.world.surface_point(&branch.ray, hit);
+        branch.flux *= branch.media.transmittance(self.world, hit.t);
+        let wo = -branch.ray.direction;
+        let vertex = Vertex::new(self.world, point, [object, material], wo, &mut self.found.counters);
+        if vertex.scatters() && branch.bounces > 0 && branch.bounces < self.world.max_bounces {
+            self.arrive(&branch, &vertex);
+        }
+        if branch.bounces + 1 < self.world.max_bounces {
+            self.branch_off(&branch, &vertex, weak, sampler);
+        }
+    }
+
+    /// Goes on along the mirrored and the refracted ray, both; weak branches end at random.
+    fn branch_off(&mut self, branch: &Branch, vertex: &Vertex, weak: f32, sampler: &mut Sampler) {
+        let Some(event) = SpecularEvent::at(self.world, vertex, &branch.media) else { return };
+        for next in [Some(event.reflected), event.refracted].into_iter().flatten() {
+            let flux = branch.flux * next.tint * next.fraction as f32;
+            if let Some(survival) = roulette(flux.max_element(), weak, sampler) {
+                self.branches.push(Branch {
+                    ray: vertex.ray(self.world, next.direction),
+                    flux: flux / survival,
+                    media: next.media,
+                    bounces: branch.bounces + 1,
+                });
+            }
+        }
+    }
+
+    /// Leaves a photon in the map, on the film, or both.
+    fn arrive(&mut self, branch: &Branch, vertex: &Vertex) {
+        if !branch.flux.is_finite() {
+            self.found.counters.dropped_samples += 1;
+            return;
+        }
+        if self.to_map {
+            self.found.photons.push(Photon::arrived(self.world, vertex, branch.flux, branch.bounces));
+            self.found.counters.photons_stored += 1;
+        }
+        self.splat(branch.flux, vertex);
+    }
+
+    /// Adds a photon to the pixel that sees it: the flux `phi` adds `phi f |cos| / (d^2 solid angle of the pixel)` to the pixel's mean
+    /// radiance. Adds nothing where the pixel gathers directly seen caustics.
+    fn splat(&mut self, flux: Rgb, vertex: &Vertex) {
+        let Vertex { point, scattering, n_side, n_shade, wo: wi, .. } = vertex;
+        let Some(seen) = self.plan.camera.project(point.position) else { return };
+        let primitive = &self.world.aggregate.primitives()[point.hit.primitive as usize];
+        if self.plan.gathers_visible_caustics(primitive, seen.pixel, self.iteration) {
+            return;
+        }
+        let wo = seen.to_camera;
+        let (cos_camera, cos_photon, cos_shade) = (wo.dot(*n_side), wi.dot(*n_side), wi.dot(*n_shade));
+        if cos_camera <= 0.0 || cos_photon <= 0.0 || cos_shade <= 0.0 {
+            return;
+        }
+        let reflected = bsdf::eval(scattering, *n_shade, wo, *wi);
+        let shading = (cos_shade / cos_photon).min(MAX_SHADING_FACTOR);
+        let geometry = cos_camera * seen.pixels_per_steradian / (seen.distance * seen.distance);
+        let radiance = flux * reflected * (shading * geometry) as f32;
+        if radiance == Rgb::ZERO || self.is_hidden(vertex, wo) {
+            return;
+        }
+        if radiance.is_finite() {
+            self.found.splats.push(Splat { pixel: seen.pixel, radiance });
+            self.found.counters.splats += 1;
+        } else {
+            self.found.counters.dropped_samples += 1;
+        }
+    }
+
+    /// Whether something stands between a vertex and the camera, in this direction.
+    fn is_hidden(&mut self, vertex: &Vertex, to_camera: DVec3) -> bool {
+        self.found.counters.shadow_rays += 1;
+        let sight = Ray::between(self.world.leave(&vertex.point, to_camera), self.plan.camera.position);
+        self.world.aggregate.occluded(&sight)
+    }
+}

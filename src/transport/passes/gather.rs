@@ -1,0 +1,275 @@
+//! The gather pass: photons to radiance, by density estimates at visible points.
+
+use super::camera::CameraBatch;
+use super::interleaving::Interleaving;
+use crate::math::lanes::simd_dispatch;
+use crate::math::{Lanes, Rgb, sobol};
+use crate::transport::counters::Counters;
+use crate::transport::density::BandwidthDifference;
+use crate::transport::density::bandwidth::WIDER;
+use crate::transport::density::disc::Disc;
+use crate::transport::density::estimate::{self, is_diffuse, is_glossy};
+use crate::transport::density::visibility_polygon::{VisibilityPolygon, VisibilityQuery};
+use crate::transport::pass::Cancel;
+use crate::transport::photons::photon_map::Stack;
+use crate::transport::photons::{MapKind, Maps};
+use crate::transport::plan::Plan;
+use crate::transport::points::{Facet, VisiblePoint, bsdf};
+use crate::world::World;
+use arrayvec::ArrayVec;
+
+/// Visible points between two checks whether the pass was cancelled.
+const POINTS_PER_BLOCK: usize = 1024;
+
+/// Light at a visible point.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Gathered {
+    /// Radiance that the point adds to its pixel.
+    pub radiance: Rgb,
+    /// The difference of this radiance in wider discs; 0 where it is not measured.
+    pub difference: BandwidthDifference,
+}
+
+/// The light at each visible point, in their order, with the work done; `None` when cancelled.
+pub fn gather(
+    world: &World,
+    plan: &Plan,
+    maps: &Maps,
+    seen: &CameraBatch,
+    iteration: u64,
+    cancel: Cancel,
+) -> Option<(Vec<Gathered>, Counters)> {
+    let points = seen.visible_points.as_slice();
+    let gatherer = Gatherer { world, plan, maps, facets: &seen.facets, iteration };
+    let mut stack = Stack::new();
+    let interleaving = gatherer.interleaving(points);
+    let mut counters = Counters { global_gathers: interleaving.gathering.len() as u64, ..Counters::default() };
+    let mut irradiances = Vec::with_capacity(interleaving.gathering.len());
+    for gathering in interleaving.gathering.chunks(POINTS_PER_BLOCK) {
+        irradiance_block(&gatherer, points, gathering, &mut stack, &mut irradiances);
+        if cancel.is_cancelled() {
+            return None;
+        }
+    }
+    let mut gathered = Vec::with_capacity(points.len());
+    for (points, source) in points.chunks(POINTS_PER_BLOCK).zip(interleaving.source.chunks(POINTS_PER_BLOCK)) {
+        let shared = source.iter().map(|source| source.map(|source| irradiances[source as usize]));
+        let shared: ArrayVec<Option<Rgb>, POINTS_PER_BLOCK> = shared.collect();
+        gather_block(&gatherer, points, &shared, &mut stack, &mut counters, &mut gathered);
+        if cancel.is_cancelled() {
+            return None;
+        }
+    }
+    Some((gathered, counters))
+}
+
+simd_dispatch! {
+    /// Appends the irradiance of interreflection at the points that gather it for their neighbours, too.
+    fn irradiance_block(
+        l: impl Lanes,
+        gatherer: &Gatherer,
+        points: &[VisiblePoint],
+        gathering: &[u32],
+        stack: &mut Stack,
+        irradiances: &mut Vec<Rgb>,
+    ) {
+        for &index in gathering {
+            irradiances.push(gatherer.shared_irradiance(l, &points[index as usize], stack));
+        }
+    }
+}
+
+simd_dispatch! {
+    /// Appends the light at some points; `shared` is the irradiance of interreflection that a neighbour gathered.
+    fn gather_block(
+        l: impl Lanes,
+        gatherer: &Gatherer,
+        points: &[VisiblePoint],
+        shared: &[Option<Rgb>],
+        stack: &mut Stack,
+        counters: &mut Counters,
+        gathered: &mut Vec<Gathered>,
+    ) {
+        for (point, shared) in points.iter().zip(shared) {
+            gathered.push(gatherer.at(l, point, *shared, stack, counters));
+        }
+    }
+}
+
+/// What density estimates read.
+struct Gatherer<'a> {
+    world: &'a World,
+    plan: &'a Plan,
+    maps: &'a Maps,
+    facets: &'a [Facet],
+    iteration: u64,
+}
+
+impl Gatherer<'_> {
+    fn interleaving(&self, points: &[VisiblePoint]) -> Interleaving {
+        if self.maps.global.is_empty() {
+            return Interleaving::none(points.len());
+        }
+        Interleaving::new(self.plan.interleaved_grid(self.iteration), points, |point| {
+            self.radius(MapKind::Global, point)
+        })
+    }
+
+    /// The irradiance that a point gathers for its neighbours, too.
+    #[inline(always)]
+    fn shared_irradiance<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
+        let mut sum = Rgb::ZERO;
+        for kind in MapKind::ALL {
+            if self.is_shared(kind) && self.needs(kind, point) {
+                let radius = self.radius(kind, point);
+                // No closure: it would not be compiled with the vector instructions.
+                let Some(mut disc) = self.disc(point, None, radius) else { continue };
+                // Neighbours have another relief.
+                disc.correction.normal = point.n_side;
+                sum += estimate::irradiance(l, &self.maps[kind], stack, point, &disc);
+            }
+        }
+        if sum.is_finite() { sum } else { Rgb::ZERO }
+    }
+
+    /// The light at a point; `shared` is the irradiance that a neighbour gathered.
+    #[inline(always)]
+    fn at<L: Lanes>(
+        &self,
+        l: L,
+        point: &VisiblePoint,
+        shared: Option<Rgb>,
+        stack: &mut Stack,
+        counters: &mut Counters,
+    ) -> Gathered {
+        let mut found = Gathered::default();
+        let compares = self.plan.compares_bandwidths(point.pixel, self.iteration);
+        // The second value tells whether the picture shows the map's light here.
+        let radii: ArrayVec<(MapKind, bool, f64), 4> = MapKind::ALL
+            .into_iter()
+            .filter(|kind| self.needs(*kind, point))
+            .map(|kind| (kind, self.shows(kind, point)))
+            .filter(|(_, shows)| compares || *shows)
+            .map(|(kind, shows)| (kind, shows, self.radius(kind, point)))
+            .collect();
+        let largest = radii.iter().fold(0.0, |largest, (_, _, radius)| radius.max(largest));
+        let polygon = self.visibility_polygon(point, largest * if compares { WIDER } else { 1.0 }, counters);
+        for (kind, shows, radius) in radii {
+            let light = match shared {
+                Some(irradiance) if kind == MapKind::Global => {
+                    point.throughput * irradiance * estimate::diffuse_scattering(point, radius)
+                }
+                Some(_) if self.is_shared(kind) => continue,
+                _ => {
+                    let is_caustic = kind == MapKind::Caustic;
+                    *(if is_caustic { &mut counters.caustic_gathers } else { &mut counters.global_gathers }) += 1;
+                    self.radiance(l, kind, stack, point, polygon.as_ref(), radius)
+                }
+            };
+            if shows {
+                found.radiance += light;
+            }
+            if compares {
+                let wider = self.radiance(l, kind, stack, point, polygon.as_ref(), WIDER * radius);
+                let difference = (wider - light).element_sum();
+                found.difference.maps[kind] = difference;
+                found.difference.picture += if shows { difference } else { 0.0 };
+                if kind == MapKind::Caustic
+                    && let Some(disc) = self.disc(point, polygon.as_ref(), radius)
+                {
+                    found.difference.caustic_noise = estimate::shot_noise(l, &self.maps[kind], stack, light, &disc);
+                }
+            }
+        }
+        if found.radiance.is_finite() && found.difference.is_finite() {
+            found
+        } else {
+            counters.dropped_samples += 1;
+            Gathered::default()
+        }
+    }
+
+    /// Whether points gather the photons of a map for their neighbours, too: interreflection, in a draft also indirect caustics.
+    fn is_shared(&self, kind: MapKind) -> bool {
+        kind == MapKind::Global || (kind == MapKind::IndirectCaustic && self.plan.is_draft())
+    }
+
+    /// Whether a point reflects light of a map that holds photons.
+    fn needs(&self, kind: MapKind, point: &VisiblePoint) -> bool {
+        !self.maps[kind].is_empty()
+            && match kind {
+                MapKind::Caustic => true,
+                MapKind::Global | MapKind::IndirectCaustic => is_diffuse(point),
+                MapKind::Glossy => is_glossy(point),
+            }
+    }
+
+    /// Whether the picture shows the light of a map at a point: not where caustic photons are splatted.
+    fn shows(&self, kind: MapKind, point: &VisiblePoint) -> bool {
+        let primitive = || &self.world.aggregate.primitives()[point.primitive as usize];
+        kind != MapKind::Caustic
+            || !point.seen_directly
+            || self.plan.gathers_visible_caustics(primitive(), point.pixel, self.iteration)
+    }
+
+    /// See [`Plan::radius`].
+    fn radius(&self, kind: MapKind, point: &VisiblePoint) -> f64 {
+        self.plan.radius(self.world, kind, point, self.iteration)
+    }
+
+    /// What a point sees of its surface within the reach (scene units), where an object stands on the surface.
+    fn visibility_polygon(
+        &self,
+        point: &VisiblePoint,
+        reach: f64,
+        counters: &mut Counters,
+    ) -> Option<VisibilityPolygon> {
+        if point.clearance.standing >= reach {
+            return None;
+        }
+        let random = sobol::mix64(u64::from(point.pixel) ^ sobol::mix64(self.iteration)) as f64 / u64::MAX as f64;
+        let (polygon, rays) = VisibilityQuery {
+            world: self.world,
+            primitive: &self.world.aggregate.primitives()[point.primitive as usize],
+            uv: point.uv,
+            normal: point.n_side.as_dvec3(),
+            reach,
+            turn: 4.0 * random,
+        }
+        .polygon();
+        counters.rays += rays;
+        polygon
+    }
+
+    #[inline(always)]
+    fn disc<'v>(&self, point: &VisiblePoint, polygon: Option<&'v VisibilityPolygon>, radius: f64) -> Option<Disc<'v>> {
+        Disc::new(self.world, point, polygon, radius, self.plan.corrects_edges())
+    }
+
+    /// The radiance that a point adds to its pixel with the photons of a map. In Phong lobes camera paths find the rest: all light but
+    /// caustics and the photons of the glossy map.
+    #[inline(always)]
+    fn radiance<L: Lanes>(
+        &self,
+        l: L,
+        kind: MapKind,
+        stack: &mut Stack,
+        point: &VisiblePoint,
+        polygon: Option<&VisibilityPolygon>,
+        radius: f64,
+    ) -> Rgb {
+        let Some(disc) = self.disc(point, polygon, radius) else { return Rgb::ZERO };
+        let map = &self.maps[kind];
+        let facets = &self.facets[point.first_facet as usize..][..point.facets as usize];
+        let reflected = if kind == MapKind::Glossy {
+            estimate::glossy_radiance(l, map, stack, point, &disc, Rgb::ZERO)
+        } else if kind == MapKind::Caustic && is_glossy(point) {
+            estimate::glossy_radiance(l, map, stack, point, &disc, bsdf::eval_diffuse(&point.scattering))
+        } else if !facets.is_empty() && disc.visible.is_none() && estimate::covers_pixel(point, radius) {
+            estimate::faceted_radiance(l, map, stack, facets, &disc)
+        } else {
+            estimate::irradiance(l, map, stack, point, &disc) * estimate::diffuse_scattering(point, radius)
+        };
+        point.throughput * reflected
+    }
+}

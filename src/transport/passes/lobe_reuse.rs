@@ -1,0 +1,152 @@
+//! Spatial reuse of Phong lobe samples. In each iteration one random camera path from each pixel samples what its lobe shows. The lobes
+//! of neighbours show much the same, so each pixel takes the mean over its neighbours' samples. Neighbours are nearer than the lobe
+//! blurs even the nearest object, and have similar normals. Their distance shrinks from iteration to iteration as the discs of density
+//! estimates do, so that the added blur vanishes.
+
+use crate::math::Rgb;
+use crate::transport::pass::Rows;
+use crate::transport::plan::Plan;
+use crate::transport::points::VisiblePoint;
+use crate::world::{Lobe, World};
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// The least cosine between the normals of neighbours: 2.5 degrees.
+const LEAST_COS: f32 = 0.999;
+
+/// A pixel's sample of what its Phong lobe shows.
+#[derive(Clone, Copy, Debug)]
+pub struct LobeSample {
+    /// Radiance from photons at the points that the lobe shows, as the pixel sees it.
+    pub radiance: Rgb,
+    /// Position of the point with the lobe, relative to the middle of the world.
+    position: Vec3,
+    /// Unit normal at the point.
+    normal: Vec3,
+    /// First tag of the photons on the same surface and side.
+    tag: u32,
+    /// Greatest distance of a neighbour, scene units.
+    reach: f32,
+    /// The same distance in pixels, for a surface that faces the camera.
+    window: u32,
+}
+
+/// The lobe samples of some rows, row by row, without radiance yet. `None` at edges, on textured surfaces, on patches, whose own curves
+/// are near, and where even adjacent pixels are too far; an empty list where no photons are gathered or no surface has a uniform lobe.
+pub fn lobe_samples(
+    world: &World,
+    plan: &Plan,
+    points: &[VisiblePoint],
+    rows: &Rows,
+    iteration: u64,
+) -> Vec<Option<LobeSample>> {
+    if !(plan.reuses_lobes && plan.gathers()) {
+        return Vec::new();
+    }
+    let width = plan.camera.width;
+    let mut lobes = vec![None; rows.len() * width as usize];
+    for point in points.iter().filter(|point| point.seen_directly && !point.on_an_edge) {
+        lobes[(point.pixel - rows.start * width) as usize] = lobe_sample(world, plan, point, iteration);
+    }
+    lobes
+}
+
+fn lobe_sample(world: &World, plan: &Plan, point: &VisiblePoint, iteration: u64) -> Option<LobeSample> {
+    let Lobe::Phong { exponent, .. } = point.scattering.lobe else { return None };
+    if !world.has_uniform_lobe(point.primitive) {
+        return None;
+    }
+    let footprint = f64::from(point.footprint);
+    let reach = plan.lobe_reach(footprint, point.clearance, exponent, iteration);
+    let window = (reach / footprint) as u32;
+    (window > 0).then_some(LobeSample {
+        radiance: Rgb::ZERO,
+        position: point.position,
+        normal: point.n_side,
+        tag: point.tag,
+        reach: reach as f32,
+        window,
+    })
+}
+
+/// Adds to each pixel of a film of this width the mean over its own lobe sample and those of its neighbours. The samples come in bands
+/// of whole rows.
+pub fn reuse_lobes<'a>(bands: impl Iterator<Item = &'a [Option<LobeSample>]>, width: u32, film: &mut [Rgb]) {
+    let rows: Vec<_> = bands.flat_map(|lobes| lobes.chunks(width as usize)).collect();
+    film.par_chunks_mut(width as usize).zip(0..rows.len()).for_each(|(film, row)| {
+        for (column, lobe) in rows[row].iter().enumerate() {
+            if let Some(lobe) = lobe {
+                film[column] += lobe.mean_around(&rows, row, column);
+            }
+        }
+    });
+}
+
+impl LobeSample {
+    /// The mean radiance of this sample, at that row and column, and its neighbours.
+    fn mean_around(&self, rows: &[&[Option<LobeSample>]], row: usize, column: usize) -> Rgb {
+        let around = |middle: usize, end: usize| {
+            middle.saturating_sub(self.window as usize)..(middle + self.window as usize + 1).min(end)
+        };
+        let (mut sum, mut count) = (Rgb::ZERO, 0.0);
+        for row in &rows[around(row, rows.len())] {
+            for other in row[around(column, row.len())].iter().flatten() {
+                if self.is_neighbour(other) {
+                    sum += other.radiance;
+                    count += 1.0;
+                }
+            }
+        }
+        // A degenerate normal must not yield NaN: then not even the sample itself counts.
+        sum / f32::max(count, 1.0)
+    }
+
+    fn is_neighbour(&self, other: &Self) -> bool {
+        self.tag == other.tag
+            && self.position.distance_squared(other.position) <= self.reach * self.reach
+            && self.normal.dot(other.normal) >= LEAST_COS
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In a row of pixels, a unit from each other on a floor.
+    fn lobe(x: f32, tag: u32, reach: f32, found: f32) -> Option<LobeSample> {
+        let position = Vec3::new(x, 0.0, 0.0);
+        Some(LobeSample { radiance: Rgb::splat(found), position, normal: Vec3::Y, tag, reach, window: reach as u32 })
+    }
+
+    fn shared<const N: usize>(lobes: [Option<LobeSample>; N], width: u32) -> [f32; N] {
+        let mut film = [Rgb::ZERO; N];
+        reuse_lobes([lobes.as_slice()].into_iter(), width, &mut film);
+        film.map(|radiance| radiance.x)
+    }
+
+    #[test]
+    fn neighbours_take_the_mean() {
+        let row = [lobe(0.0, 0, 1.0, 3.0), lobe(1.0, 0, 1.0, 6.0), lobe(2.0, 0, 1.0, 0.0), lobe(3.0, 0, 0.0, 8.0)];
+        assert_eq!(shared(row, 4), [4.5, 3.0, 14.0 / 3.0, 8.0], "each as far as its own reach");
+    }
+
+    #[test]
+    fn neither_other_surfaces_nor_far_places_count() {
+        let row = [lobe(0.0, 0, 1.0, 3.0), lobe(1.0, 8, 1.0, 6.0), None, lobe(3.0, 8, 1.0, 5.0)];
+        assert_eq!(shared(row, 4), [3.0, 6.0, 0.0, 5.0]);
+        let on_a_bend =
+            lobe(1.0, 0, 1.0, 9.0).map(|lobe| LobeSample { normal: Vec3::new(0.1, 1.0, 0.0).normalize(), ..lobe });
+        assert_eq!(shared([lobe(0.0, 0, 1.0, 3.0), on_a_bend], 2), [3.0, 9.0]);
+        // A steep surface: the next pixel in the window shows a place beyond the reach.
+        assert_eq!(shared([lobe(0.0, 0, 1.0, 3.0), lobe(1.5, 0, 1.0, 6.0)], 2), [3.0, 6.0]);
+    }
+
+    #[test]
+    fn rows_above_and_below_are_neighbours_too() {
+        let at = |x: f32, z: f32, found| {
+            lobe(x, 0, 1.0, found).map(|lobe| LobeSample { position: Vec3::new(x, 0.0, z), ..lobe })
+        };
+        let film = [at(0.0, 0.0, 2.0), at(1.0, 0.0, 4.0), at(0.0, 1.0, 6.0), at(1.0, 1.0, 8.0)];
+        assert_eq!(shared(film, 2), [4.0, 14.0 / 3.0, 16.0 / 3.0, 6.0], "two beside each, none at the diagonal");
+    }
+}

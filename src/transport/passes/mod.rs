@@ -1,0 +1,26 @@
+//! The passes of an iteration, in the order in which they run.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `caustic_photons` | the caustic photon pass: light to mirrors and glass, to the film or the caustic map |
+//! | `global_photons` | the photon pass of interreflection |
+//! | `camera/` | the camera pass: direct light and visible points |
+//! | `interleaving` | points that gather irradiance for their neighbours |
+//! | `gather` | the gather pass: density estimates at visible points |
+//! | `lobe_reuse` | spatial reuse of Phong lobe samples |
+//! | `band` | one band's result, and the iteration's contribution to the film |
+
+mod band;
+mod camera;
+mod caustic_photons;
+mod gather;
+mod global_photons;
+mod interleaving;
+mod lobe_reuse;
+
+pub use band::{Band, Contribution};
+pub use camera::{CameraBatch, camera_pass};
+pub use caustic_photons::{CausticPhotons, Splat, caustic_photon_pass};
+pub use gather::{Gathered, gather};
+pub use global_photons::global_photon_pass;
+pub use lobe_reuse::{LobeSample, lobe_samples};

@@ -1,0 +1,217 @@
+//! Photon paths of interreflection: light that was scattered in many directions at least once before it arrives.
+
+use super::photon::Photon;
+use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
+use crate::transport::counters::Counters;
+use crate::transport::lights::emission::{self, Emission};
+use crate::transport::points::{GlossyMis, Media, SpecularEvent, Vertex, bsdf};
+use crate::world::{Lobe, Surface, World};
+use glam::{DVec2, DVec3};
+
+/// Distance of a point in front of a surface, in radii of the world.
+const OFF_SURFACE: f64 = 1e-5;
+
+/// Photons of interreflection.
+#[derive(Clone, Debug, Default)]
+pub struct GlobalPhotons {
+    /// Photons straight from a diffuse or glossy surface: their density is smooth.
+    pub photons: Vec<Photon>,
+    /// Photons that mirrors or glass sent on after a diffuse or glossy surface: indirect caustics.
+    pub indirect_caustics: Vec<Photon>,
+    /// Photons at Phong lobes, their flux times the MIS weight of photons: see [`GlossyMis`].
+    pub glossy: Vec<Photon>,
+    /// Work done.
+    pub counters: Counters,
+}
+
+/// Traces photon paths and stores what they leave.
+pub(in crate::transport) struct GlobalPhotonTracer<'a> {
+    world: &'a World,
+    glossy_mis: Option<&'a GlossyMis>,
+    /// The photons so far.
+    pub(in crate::transport) stored: GlobalPhotons,
+}
+
+/// The state of one photon path.
+struct PhotonPath {
+    light: usize,
+    /// Point on the light.
+    origin: DVec3,
+    ray: Ray,
+    flux: Rgb,
+    media: Media,
+    /// Scattering events so far.
+    bounces: u32,
+    /// Whether a diffuse or glossy surface scattered it.
+    was_scattered: bool,
+    /// Whether the last event was at a mirror or glass.
+    last_was_specular: bool,
+    /// For a path that the first surface scattered and none since but mirrors and glass: the density that [`GlossyMis::camera_weight`]
+    /// takes.
+    mis_density: Option<f64>,
+}
+
+/// The points, a little in front of surfaces, where one path of a light meets diffuse and glossy surfaces, from the first one on.
+pub(in crate::transport) fn arrivals_of_path(world: &World, light: usize, mut sampler: Sampler) -> Vec<DVec3> {
+    let mut tracer = GlobalPhotonTracer::new(world, None);
+    // As if a surface had scattered it before: so the first arrival leaves a photon, too.
+    let path = PhotonPath { was_scattered: true, ..tracer.start(light, 1, &mut sampler) };
+    tracer.follow(path, &mut sampler);
+    let GlobalPhotons { photons, indirect_caustics, .. } = tracer.stored;
+    let in_front =
+        |photon: &Photon| world.center + photon.position.as_dvec3() + OFF_SURFACE * world.radius * photon.wi.as_dvec3();
+    photons.iter().chain(&indirect_caustics).map(in_front).collect()
+}
+
+impl<'a> GlobalPhotonTracer<'a> {
+    /// A tracer with nothing stored. Without MIS weights no photons are stored at Phong lobes.
+    pub(in crate::transport) fn new(world: &'a World, glossy_mis: Option<&'a GlossyMis>) -> Self {
+        Self { world, glossy_mis, stored: GlobalPhotons::default() }
+    }
+
+    /// Traces one of so many paths of a light.
+    pub(in crate::transport) fn trace(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
+        let path = self.start(light, path_count, &mut sampler);
+        self.follow(path, &mut sampler);
+    }
+
+    fn start(&mut self, light: usize, path_count: u64, sampler: &mut Sampler) -> PhotonPath {
+        let Emission { origin, direction, flux } = emission::emit(&self.world.lights[light], sampler);
+        self.stored.counters.global_paths += 1;
+        let ray = Ray { t_min: 1e-9 * self.world.radius, ..Ray::new(origin, direction) };
+        PhotonPath {
+            light,
+            origin,
+            ray,
+            flux: flux / path_count as f32,
+            media: Media::default(),
+            bounces: 0,
+            was_scattered: false,
+            last_was_specular: false,
+            mis_density: None,
+        }
+    }
+
+    fn follow(&mut self, mut path: PhotonPath, sampler: &mut Sampler) {
+        while self.step(&mut path, sampler).is_some() {}
+    }
+
+    /// Follows a path to the next surface and off it; `None` where the path ends.
+    fn step(&mut self, path: &mut PhotonPath, sampler: &mut Sampler) -> Option<()> {
+        let counters = &mut self.stored.counters;
+        counters.rays += 1;
+        let hit = self.world.aggregate.closest_hit(&path.ray)?;
+        let Surface::Object { object, material, .. } = self.world.surfaces[hit.primitive as usize] else { return None };
+        let point = self.world.surface_point(&path.ray, hit);
+        path.flux *= path.media.transmittance(self.world, hit.t);
+        let vertex = Vertex::new(self.world, point, [object, material], -path.ray.direction, counters);
+        if path.bounces < self.world.max_bounces {
+            self.store(path, &vertex);
+        }
+        if path.bounces + 1 >= self.world.max_bounces {
+            return None;
+        }
+        let direction = scatter(self.world, path, &vertex, sampler)?;
+        path.mis_density = self.mis_density(path, &vertex, direction);
+        path.bounces += 1;
+        path.ray = vertex.ray(self.world, direction);
+        path.flux.is_finite().then_some(())
+    }
+
+    /// Stores the photons that a path leaves at a vertex.
+    fn store(&mut self, path: &PhotonPath, vertex: &Vertex) {
+        if path.was_scattered && vertex.scattering.albedo != Rgb::ZERO {
+            let stored = &mut self.stored;
+            let photons = if path.last_was_specular { &mut stored.indirect_caustics } else { &mut stored.photons };
+            photons.push(Photon::arrived(self.world, vertex, path.flux, path.bounces));
+            stored.counters.photons_stored += 1;
+        }
+        if let Some(density) = path.mis_density {
+            self.store_at_lobe(path, density, vertex);
+        }
+    }
+
+    /// Stores a photon at a Phong lobe, its flux times the MIS weight of photons.
+    #[inline(never)]
+    fn store_at_lobe(&mut self, path: &PhotonPath, density: f64, vertex: &Vertex) -> Option<()> {
+        let mis = self.glossy_mis?;
+        let lobe = mis.viewing_lobe(self.world, vertex, vertex.wo, 0.0)?;
+        let weight = 1.0 - mis.camera_weight(path.light, density, lobe);
+        if weight > 0.0 {
+            let flux = weight as f32 * path.flux;
+            self.stored.glossy.push(Photon::arrived(self.world, vertex, flux, path.bounces));
+            self.stored.counters.photons_stored += 1;
+        }
+        Some(())
+    }
+
+    /// [`PhotonPath::mis_density`] of a path that leaves a vertex in this direction.
+    fn mis_density(&self, path: &PhotonPath, vertex: &Vertex, direction: DVec3) -> Option<f64> {
+        match (path.bounces, path.last_was_specular) {
+            (0, false) if self.glossy_mis.is_some_and(GlossyMis::uses_photons) => {
+                let light = &self.world.lights[path.light];
+                let scattered =
+                    f64::from(bsdf::eval(&vertex.scattering, vertex.n_shade, direction, vertex.wo).max_element());
+                let emitted = emission::density(light, path.origin, vertex.point.position);
+                Some(scattered * vertex.wo.dot(vertex.n_side) * emitted)
+            }
+            (1.., true) => path.mis_density,
+            _ => None,
+        }
+    }
+}
+
+/// Samples the diffuse part, the lobe or absorption in proportion to the flux that each would leave (Russian roulette, which keeps
+/// the flux of all photons about equal); returns the new direction, `None` for absorption.
+fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut Sampler) -> Option<DVec3> {
+    let Vertex { scattering, n_side, n_shade, wo: wi, .. } = *vertex;
+    let (u, choice): (DVec2, f64) = (sampler.next_2d(), sampler.next_1d());
+    let before = path.flux.max_element();
+    path.last_was_specular = false;
+    let kept = |weight: Rgb| f64::from((path.flux * weight).max_element() / before);
+    let diffuse = kept(scattering.albedo);
+    if choice < diffuse {
+        path.flux *= scattering.albedo / diffuse as f32;
+        path.was_scattered = true;
+        let direction = OrthonormalBasis::from_normal(n_shade).world_from_local(warp::cosine_hemisphere(u));
+        let factor = bsdf::shading_factor(wi, direction, n_side, n_shade);
+        path.flux *= factor as f32;
+        return (factor > 0.0).then_some(direction);
+    }
+    match scattering.lobe {
+        Lobe::None => None,
+        Lobe::Phong { specular, .. } => {
+            let probability = kept(specular);
+            if choice - diffuse >= probability {
+                return None;
+            }
+            let (direction, weight) = bsdf::sample_glossy(&scattering, n_shade, n_side, wi, u)?;
+            path.flux *= weight / probability as f32;
+            path.flux *= bsdf::shading_factor(wi, direction, n_side, n_shade) as f32;
+            path.was_scattered = true;
+            Some(direction)
+        }
+        Lobe::Mirror { reflectance } => {
+            let probability = kept(reflectance);
+            (choice - diffuse < probability)
+                .then(|| follow_specular(world, path, vertex, choice, probability))
+                .flatten()
+        }
+        Lobe::Glass { .. } => follow_specular(world, path, vertex, choice, 1.0),
+    }
+}
+
+/// Sends a path on at a mirror or glass, where it survived with this probability.
+fn follow_specular(
+    world: &World,
+    path: &mut PhotonPath,
+    vertex: &Vertex,
+    choice: f64,
+    probability: f64,
+) -> Option<DVec3> {
+    let next = SpecularEvent::at(world, vertex, &path.media)?.choose(choice);
+    path.last_was_specular = true;
+    path.flux *= next.tint / probability as f32;
+    path.media = next.media;
+    Some(next.direction)
+}

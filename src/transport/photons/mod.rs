@@ -1,0 +1,23 @@
+//! Photons: how they travel, and the maps that store them.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `photon` | a stored photon and its tag |
+//! | `cosine_correction` | photons that arrived where the surface has another normal |
+//! | `photon_map/` | the kd-tree |
+//! | `maps` | the four maps of an iteration |
+//! | `path_blocks` | photon paths in blocks for threads |
+//! | `global_tracer` | photon paths of interreflection |
+
+mod cosine_correction;
+pub(in crate::transport) mod global_tracer;
+mod maps;
+pub(in crate::transport) mod path_blocks;
+pub(in crate::transport) mod photon;
+pub(in crate::transport) mod photon_map;
+
+pub(in crate::transport) use cosine_correction::CosineCorrection;
+pub use global_tracer::GlobalPhotons;
+pub use maps::{MapKind, Maps, PerMap};
+pub use photon::Photon;
+pub use photon_map::{PhotonMap, Query};

@@ -1,0 +1,67 @@
+//! Camera samples, photon paths and bands of rows of an iteration.
+
+use super::interleaved_grid::InterleavedGrid;
+use super::render_plan::Plan;
+use crate::math::Stream;
+use crate::transport::density::bandwidth::BandwidthDifferences;
+use crate::transport::density::schedule;
+use crate::transport::pass::Rows;
+use std::ops::Range;
+
+/// Samples of a pixel in a full iteration before the first refinement. One of them gathers photons, which is most of the work; the
+/// others find direct light, whose edges need them.
+const CAMERA_SAMPLES: f64 = 4.0;
+
+impl Plan {
+    /// The film in bands of rows that can be rendered independently.
+    pub fn bands(&self, iteration: u64) -> Vec<Rows> {
+        self.interleaved_grid(iteration).bands(self.camera.height)
+    }
+
+    /// The pixels of an iteration that gather interreflection for their neighbours.
+    pub(in crate::transport) fn interleaved_grid(&self, iteration: u64) -> InterleavedGrid {
+        let width = self.camera.width;
+        if self.is_draft { InterleavedGrid::draft(width) } else { InterleavedGrid::new(width, iteration) }
+    }
+
+    /// The weight of an iteration in the mean of photons: its number of paths over that of a full iteration.
+    pub fn weight(&self, iteration: u64) -> f64 {
+        if self.is_draft { 1.0 } else { schedule::size(iteration) }
+    }
+
+    /// Indices of the paths of an iteration in a light's sequence, for `count` paths in a full iteration.
+    pub(in crate::transport) fn paths(&self, count: u64, iteration: u64) -> Range<u64> {
+        let start = (count as f64 * schedule::size_before(iteration)) as u64;
+        start..start + (count as f64 * self.weight(iteration)) as u64
+    }
+
+    /// Indices of the samples of an iteration in a pixel's sequence; at least one.
+    pub(in crate::transport) fn camera_samples(&self, pixel: u32, iteration: u64) -> Range<u64> {
+        if self.is_draft {
+            return 0..1;
+        }
+        if let Some(samples) = &self.samples {
+            return samples.at(pixel, iteration);
+        }
+        let before = |i| (CAMERA_SAMPLES * schedule::size_before(i)).ceil() as u64;
+        before(iteration)..before(iteration + 1)
+    }
+
+    /// The weight of the mean of a pixel's samples of an iteration among those of all iterations.
+    pub(in crate::transport) fn samples_weight(&self, pixel: u32, iteration: u64) -> f32 {
+        match &self.samples {
+            Some(samples) => samples.weight(pixel),
+            None => self.camera_samples(pixel, iteration).count() as f32,
+        }
+    }
+
+    /// Whether an iteration measures the bandwidth difference in a pixel.
+    pub(in crate::transport) fn compares_bandwidths(&self, pixel: u32, iteration: u64) -> bool {
+        !self.is_draft && BandwidthDifferences::includes([self.camera.width, self.camera.height], pixel, iteration)
+    }
+
+    /// The stream of random numbers of a pass; drafts draw from streams of their own.
+    pub(in crate::transport) fn stream(&self, stream: Stream) -> Stream {
+        if self.is_draft { Stream::Draft(stream.number()) } else { stream }
+    }
+}

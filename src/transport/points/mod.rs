@@ -1,0 +1,27 @@
+//! Points where light meets a surface.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `bsdf` | scattering functions: Lambert, Phong, Fresnel |
+//! | `surfaces` | what a primitive's surface does with light |
+//! | `medium` | the glass around a path |
+//! | `vertex` | a vertex of a light or camera path |
+//! | `specular` | the scattering event at mirrors and glass; Russian roulette |
+//! | `glossy_mis` | MIS weights between camera paths and photons in Phong lobes |
+//! | `visible_point` | where the camera gathers photons |
+
+pub(in crate::transport) mod bsdf;
+pub(in crate::transport) mod glossy_mis;
+mod medium;
+mod specular;
+mod surfaces;
+mod vertex;
+mod visible_point;
+
+pub use bsdf::{Fresnel, fresnel};
+pub use glossy_mis::GlossyMis;
+pub(in crate::transport) use glossy_mis::{MisVertex, ViewingLobe};
+pub(in crate::transport) use medium::Media;
+pub(in crate::transport) use specular::{SpecularEvent, roulette};
+pub(in crate::transport) use vertex::Vertex;
+pub use visible_point::{Clearance, Facet, VisiblePoint};

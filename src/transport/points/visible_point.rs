@@ -1,0 +1,75 @@
+use crate::math::Rgb;
+use crate::world::Scattering;
+use glam::{DVec2, Vec3};
+
+/// A point that the camera sees, directly or over mirrors, through glass and in Phong lobes, and where photons are gathered.
+#[derive(Clone, Copy, Debug)]
+pub struct VisiblePoint {
+    /// Index of the pixel, row by row from the top of the film.
+    pub pixel: u32,
+    /// Position relative to the middle of the world.
+    pub position: Vec3,
+    /// Geometric unit normal on the seen side.
+    pub n_side: Vec3,
+    /// Shading unit normal on the seen side.
+    pub n_shade: Vec3,
+    /// Unit direction towards the previous vertex of the camera path.
+    pub wo: Vec3,
+    /// Throughput of the camera path for light that leaves towards `wo`.
+    pub throughput: Rgb,
+    /// Scattering function at the point.
+    pub scattering: Scattering,
+    /// Side of the pixel's footprint, scene units.
+    pub footprint: f32,
+    /// Distances to other objects.
+    pub clearance: Clearance,
+    /// Index of the primitive.
+    pub primitive: u32,
+    /// Parameters of the point on the primitive.
+    pub uv: DVec2,
+    /// First tag of the photons on the same surface and side.
+    pub tag: u32,
+    /// Most scattering events of a photon that counts here.
+    pub photon_bounces: u32,
+    /// Mean albedo over the pixel's paths that met the same surface first.
+    pub mean_albedo: Rgb,
+    /// Greatest distance to a point where another of these paths met the surface, scene units.
+    pub spread: f32,
+    /// Index of the first facet among those of the batch.
+    pub first_facet: u32,
+    /// Number of facets; 0 on surfaces without relief.
+    pub facets: u32,
+    /// Whether the camera path has no vertex before this one.
+    pub seen_directly: bool,
+    /// Whether the pixel's paths met different surfaces first.
+    pub on_an_edge: bool,
+    /// Distance over which a Phong lobe blurs what the camera sees here, scene units; 0 without a lobe in between.
+    pub blur: f32,
+}
+
+/// Shading normal and albedo at one of the points where a pixel's paths met a surface with a relief map.
+#[derive(Clone, Copy, Debug)]
+pub struct Facet {
+    /// Shading unit normal on the seen side.
+    pub normal: Vec3,
+    /// Diffuse albedo.
+    pub albedo: Rgb,
+    /// First tag of the photons on the same surface and side.
+    pub tag: u32,
+    /// Position relative to the middle of the world.
+    pub position: Vec3,
+}
+
+/// Distances from a point to other objects, scene units, as far as they matter for density estimates.
+#[derive(Clone, Copy, Debug)]
+pub struct Clearance {
+    /// To the nearest object; 0 on a patch, whose own curves are near.
+    pub any: f64,
+    /// To the nearest object that stands on the point's quad or plane, and not only along its edges; infinite where none matters.
+    pub standing: f64,
+}
+
+impl Clearance {
+    /// No object is near.
+    pub(in crate::transport) const FREE: Self = Self { any: f64::INFINITY, standing: f64::INFINITY };
+}
