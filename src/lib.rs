@@ -43,6 +43,7 @@
 //!
 //! | module | holds | never knows |
 //! |---|---|---|
+//! | [`file`] | writing a file whole or not at all | what it writes |
 //! | [`math`] | rays, boxes, frames, error bounds, sampling warps, index-based random streams | colour, scenes, time |
 //! | [`geometry`] | sphere, quad, plane, [`geometry::bezier`], the tree over primitives | materials, files, threads |
 //! | [`scene`] | what the user describes: plain data; load, save, validate | trees, images, rendering, windows |
@@ -51,8 +52,6 @@
 //! | [`transport`] | scattering, the plan, the passes, the photon map, the schedule | channels, clocks, files |
 //! | [`engine`] | the worker, film sums, commands in, frames out, cancel, restart | windows, how surfaces scatter |
 //! | [`cli`], `app` | the two front ends, side by side | each other |
-//!
-//! [`file`] writes files whole or not at all, for whoever writes one.
 //!
 //! # Rules
 //!
