@@ -1,0 +1,71 @@
+//! The architecture of the crate, checked on its source.
+//!
+//! The tables of files at the beginning of `lib.rs` and of each folder's `mod.rs` say the order: at the root a module, elsewhere a
+//! folder, uses only what stands in rows above its own; names in one row know nothing of each other. Files import each other in no
+//! circle. Tests and documentation may use anything.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `modules` | what each module defines, imports and mentions |
+//! | `resolve` | where a path leads: to the file that defines the item |
+//! | `rules` | imports against the order, circles, tables of files |
+//! | `examples` | small crates that keep and break the rules |
+
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on has failed")]
+
+mod examples;
+mod modules;
+mod resolve;
+mod rules;
+
+use modules::Modules;
+use std::{fs, path::Path};
+
+fn this_crate() -> Modules {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    Modules::read(|file| fs::read_to_string(root.join(file)).ok()).unwrap()
+}
+
+#[test]
+fn every_path_leads_somewhere() {
+    let (_, lost) = this_crate().uses();
+    assert!(
+        lost.is_empty(),
+        "This test does not find what these paths name; mend its `resolve.rs`:\n{}",
+        lost.join("\n")
+    );
+}
+
+#[test]
+fn no_module_uses_one_above_it() {
+    let modules = this_crate();
+    let upward = rules::upward(&modules, &modules.uses().0);
+    assert!(
+        upward.is_empty(),
+        "These imports go against the order of the tables in lib.rs and mod.rs. Move what they import down to where both may use \
+         it, pass it in as an argument, or, where the table is wrong, mend its order:\n{}",
+        upward.join("\n")
+    );
+}
+
+#[test]
+fn files_import_each_other_in_no_circle() {
+    let modules = this_crate();
+    let circles = rules::circles(&modules, &modules.uses().0);
+    assert!(
+        circles.is_empty(),
+        "These files cannot be read one after the other. Move what one of them imports to a file of its own that all may use, or \
+         pass it in as an argument:\n{}",
+        circles.join("\n")
+    );
+}
+
+#[test]
+fn every_folder_begins_with_a_table_of_its_files() {
+    let wrong = rules::wrong_tables(&this_crate());
+    assert!(
+        wrong.is_empty(),
+        "Begin each file that declares modules with a table `//! | file | holds |`, one row a file, what others use first:\n{}",
+        wrong.join("\n")
+    );
+}
