@@ -43,7 +43,7 @@
 //!
 //! | module | holds | never knows |
 //! |---|---|---|
-//! | [`file`] | writing a file whole or not at all | what it writes |
+//! | [`mod@file`] | writing a file whole or not at all | what it writes |
 //! | [`math`] | rays, boxes, frames, error bounds, sampling warps, index-based random streams | colour, scenes, time |
 //! | [`geometry`] | sphere, quad, plane, [`geometry::bezier`], the tree over primitives | materials, files, threads |
 //! | [`scene`] | what the user describes: plain data; load, save, validate | trees, images, rendering, windows |

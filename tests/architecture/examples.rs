@@ -7,7 +7,7 @@ use crate::rules;
 /// Two modules in order, the lower one with a room and a `pub use`.
 const LIB: (&str, &str) = (
     "src/lib.rs",
-    "//! | module | holds |\n//! |---|---|\n//! | [`low`] | a |\n//! | [`high`], `side` | b |\nmod low; mod high; mod side;",
+    "//! | module | holds |\n//! |---|---|\n//! | [`mod@low`] | a |\n//! | [`high`], `side` | b |\nmod low; mod high; mod side;",
 );
 const LOW: (&str, &str) = ("src/low/mod.rs", "mod a; mod b; pub use a::A; pub use b::B as Bee; pub use glam::Vec3;");
 

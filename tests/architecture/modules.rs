@@ -175,5 +175,5 @@ fn table(text: &str) -> Vec<Vec<String>> {
 /// The module that a cell of a table names: `name.rs`, `name/` or a link to it.
 fn module_name(cell: &str) -> String {
     let name = cell.trim().trim_matches(['[', ']', '`']);
-    name.trim_end_matches('/').trim_end_matches(".rs").to_owned()
+    name.trim_start_matches("mod@").trim_end_matches('/').trim_end_matches(".rs").to_owned()
 }
