@@ -1,6 +1,6 @@
-//! How the cost of an iteration grows with threads, pixels, photons, patches, lights and bounces: tables for people.
+//! Tables of how the cost of an iteration grows with threads, pixels, photons, patches, lights and bounces.
 //!
-//! An iteration is the first whole one or a later one, whichever takes less time.
+//! A cost is the least time of the first iteration of full size and of later ones.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
 #![allow(clippy::print_stdout, reason = "the tables are what it is for")]
@@ -16,15 +16,15 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What is measured of a scene.
+/// The measured cost of a scene.
 struct Cost {
     prepare: f64,
     iteration: f64,
-    /// The most memory that the program had at a time, where the system tells.
+    /// Peak memory of the program in megabytes; `None` where the system does not report it.
     megabytes: Option<u64>,
 }
 
-/// The scene with a mirror ball and a glass ball of the suite.
+/// `balls.toml` of the suite: a box with a mirror ball and a glass ball.
 fn balls() -> SceneFile {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/suite/balls.toml"));
     SceneFile::open(path).expect("the scene is valid")
@@ -36,7 +36,7 @@ fn seconds<T>(work: impl FnOnce() -> T) -> (f64, T) {
     (start.elapsed().as_secs_f64(), result)
 }
 
-/// The peak of the memory begins anew.
+/// Resets the peak of the memory that the system reports.
 fn forget_peak() {
     std::fs::write("/proc/self/clear_refs", "5").ok();
 }
@@ -47,7 +47,7 @@ fn peak_megabytes() -> Option<u64> {
     Some(line.split_whitespace().nth(1)?.parse::<u64>().ok()? / 1024)
 }
 
-/// Iterations before the first whole one.
+/// Iterations before the first one of full size.
 const SMALL_ITERATIONS: u64 = 3;
 
 fn cost(file: &SceneFile, whole_iterations: usize) -> Cost {
@@ -91,7 +91,7 @@ fn resolution() {
     }
 }
 
-/// The first patch of the teapot alone; then copies of the teapot side by side, all together as large as one.
+/// The first patch of the teapot alone; then a grid of teapots, as large in total as one teapot.
 fn patches() {
     head("patches");
     row(1, &cost(&one_patch(), 3));
@@ -127,7 +127,7 @@ fn one_patch() -> SceneFile {
     file
 }
 
-/// The lamp divided among many in the upper half of the room.
+/// The power of the lamp spread over many lamps in the upper half of the room.
 fn lights() {
     head("lights");
     for count in [1, 8, 9, 100, 1000] {
@@ -155,7 +155,7 @@ fn bounces() {
     }
 }
 
-/// The passes of one iteration that grow with the photons.
+/// The passes of one iteration whose cost grows with the photons.
 fn photons() {
     println!(
         "\n| paths for interreflection | photons | photon pass, s | map, s | gather, s | map's memory |\n|--:|--:|--:|--:|--:|--:|"
@@ -183,7 +183,7 @@ fn photons() {
 }
 
 fn main() {
-    // What takes most memory comes last: not all of it is given back.
+    // The table that needs most memory comes last, since the program does not return all memory to the system.
     threads();
     bounces();
     lights();

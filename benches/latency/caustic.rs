@@ -1,4 +1,4 @@
-//! Whether a picture shows the caustic: how like it is, where there is a caustic, to the converged picture.
+//! How well a picture shows the caustic: its correlation with the converged picture over the pixels of the caustic.
 
 use image::imageops::{FilterType, grayscale, resize};
 use image::{GrayImage, RgbImage};
@@ -8,13 +8,14 @@ use patchlight::math::Rgb;
 use patchlight::scene::SceneFile;
 use patchlight::transport::{Cancel, Component};
 
-/// So many take the picture near enough to the true one.
+/// Iterations of the converged picture.
 const ITERATIONS: u64 = 8;
-/// There is a caustic where mirrors and glass bring more than this part of the light. More pixels would tell less: a polished
-/// wall sends a little everywhere, and where textures and shadows differ most, pictures are alike without any caustic.
+/// A pixel belongs to the caustic when mirrors and glass bring more than this share of its light. A lower share would take in
+/// most pixels, since a polished wall reflects a little light everywhere; textures and shadows, which pictures without a caustic
+/// show as well, would then dominate the correlation.
 const SHARE: f32 = 0.3;
 
-/// The converged picture of a scene, and where it has a caustic.
+/// The converged picture of a scene and the pixels of its caustic.
 pub(crate) struct Caustic {
     shows: ToneMap,
     converged: GrayImage,
@@ -38,13 +39,13 @@ impl Caustic {
         }
     }
 
-    /// The correlation of a picture, enlarged to full size, with the converged one, of what the screen shows there: 1 is the
-    /// same but for brightness and contrast.
+    /// The correlation of a picture, enlarged to full size, with the converged one, over the displayed pixels of the caustic. 1
+    /// means equal up to brightness and contrast.
     pub(crate) fn likeness(&self, image: &LinearImage) -> f64 {
         self.correlation(&shown(image, &self.shows))
     }
 
-    /// The same of the converged picture without its caustics on a film as wide, for comparison.
+    /// The correlation of the converged picture without its caustics on a film of `width` pixels, for comparison.
     pub(crate) fn likeness_without(&self, width: u32) -> f64 {
         let height = width * self.without.height() / self.without.width();
         self.correlation(&resize(&self.without, width, height, FilterType::Triangle))
@@ -70,13 +71,13 @@ fn sum(pixel: Rgb) -> f32 {
     pixel.to_array().iter().sum()
 }
 
-/// What the screen shows.
+/// The picture as displayed: tone-mapped and 8 bits a channel.
 fn shown(image: &LinearImage, shows: &ToneMap) -> RgbImage {
     let bytes = shows.map_image(image).into_flattened();
     RgbImage::from_raw(image.width, image.height, bytes).expect("there are three bytes a pixel")
 }
 
-/// Pearson's coefficient.
+/// Pearson's correlation coefficient.
 fn correlation(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     let pairs: Vec<_> = pairs.collect();
     let mean = |value: fn(f64, f64) -> f64| pairs.iter().map(|(x, y)| value(*x, *y)).sum::<f64>() / pairs.len() as f64;

@@ -1,8 +1,8 @@
-//! How long it takes from an edit to a picture, while a control point is dragged and after it was let go, and how well
-//! those pictures show its caustic.
+//! The time from an edit to a picture while a control point is dragged and after its release, and how well these pictures
+//! show the caustic.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
-#![allow(clippy::print_stdout, reason = "the table is what it is for")]
+#![allow(clippy::print_stdout, reason = "the benchmark prints a table")]
 
 mod caustic;
 
@@ -14,15 +14,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const SIDE: u32 = 512;
-/// Moves of a drag; the first ones, by which drafts find their size, do not count.
+/// Moves of a drag. The first `MOVES_TO_SETTLE` do not count: drafts adapt their size during them.
 const MOVES: usize = 120;
 const MOVES_TO_SETTLE: usize = 20;
 
-/// How far the control point is lifted in the end, and at each move before it less, or after it more.
+/// The final lift of the control point, and the lift per move on the way there, in scene units.
 const LIFT: f64 = 0.2;
 const MOVE: f64 = 0.001;
 
-/// The report scene with an inner control point of its sheet lifted by this much.
+/// The report scene with an inner control point of its sheet lifted by `by` scene units.
 fn lifted(by: f64) -> Arc<SceneFile> {
     let mut file = SceneFile::built_in("report").expect("there is such a scene");
     (file.scene.film.width, file.scene.film.height) = (SIDE, SIDE);
@@ -36,7 +36,7 @@ fn lifted(by: f64) -> Arc<SceneFile> {
     Arc::new(file)
 }
 
-/// Waits for the first frame of the newest scene that will do; the time since `start`, and the frame.
+/// Waits for the first frame of the newest scene for which `will_do` holds. Returns the time since `start` and the frame.
 fn wait(
     engine: &Engine,
     woken: &Receiver<()>,
@@ -60,7 +60,7 @@ fn milliseconds(sorted: &[Duration], part: f64) -> f64 {
 
 fn main() {
     let (wake, woken) = bounded(1);
-    // A full channel already says that there is something new.
+    // A full channel already announces a new frame.
     let wake = move || wake.try_send(()).unwrap_or_default();
     let engine = Engine::start(EngineSettings { threads: None, seed: 1 }, wake).expect("there are threads");
     let mut drafts = Vec::new();
@@ -74,7 +74,7 @@ fn main() {
             drafts.push(time);
         }
         newest = Some(frame);
-        // So often a mouse reports that it moves.
+        // A mouse reports moves at this rate.
         std::thread::sleep(Duration::from_millis(8));
     }
     drafts.sort();
@@ -83,7 +83,7 @@ fn main() {
     println!("| report scene, {SIDE} x {SIDE} | |\n|---|--:|");
     println!("| first draft ({size} pixels wide), median | {:.0} ms |", milliseconds(&drafts, 0.5));
     println!("| first draft, 95th percentile | {:.0} ms |", milliseconds(&drafts, 0.95));
-    // The first picture with all pixels, and the first one that goes on to converge.
+    // The last draft, which has all pixels, and the first iteration.
     let (mut wholes, mut iterations, mut newest) = (Vec::new(), Vec::new(), None);
     for k in (0..5).rev() {
         let scene = lifted(LIFT + MOVE * f64::from(k));
@@ -97,14 +97,14 @@ fn main() {
     let whole = newest.expect("there are pictures").image.clone();
     wholes.sort();
     iterations.sort();
-    println!("| first whole picture, median | {:.0} ms |", milliseconds(&wholes, 0.5));
+    println!("| last draft (all pixels), median | {:.0} ms |", milliseconds(&wholes, 0.5));
     println!("| first iteration, median | {:.0} ms |", milliseconds(&iterations, 0.5));
-    // Its threads rest while the converged picture is rendered.
+    // Stops the engine's threads while the converged picture is rendered.
     drop(engine);
     let caustic = Caustic::render(&lifted(LIFT));
-    for (name, image) in [("draft", &draft), ("whole picture", &whole)] {
+    for (name, image) in [("first draft", &draft), ("last draft", &whole)] {
         let (with, without) = (caustic.likeness(image), caustic.likeness_without(image.width));
-        println!("| caustic in the first {name}, correlation with the converged one | {with:.2} |");
-        println!("| the converged one, as wide but without caustics | {without:.2} |");
+        println!("| caustic in the {name}, correlation with the converged picture | {with:.2} |");
+        println!("| converged picture without caustics, of equal width | {without:.2} |");
     }
 }

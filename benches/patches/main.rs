@@ -1,6 +1,6 @@
-//! Rays against Bezier patches: ours, a Newton iteration from random starts, and triangles in the same kind of tree.
+//! Rays against Bezier patches: our intersector, a Newton iteration from random starts, and triangles in a tree of the same type.
 //!
-//! Incoherent rays come from all around and aim at points of the surface; coherent ones are those of a camera.
+//! Incoherent rays come from all directions and aim at points of the surface; coherent rays are those of a camera.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
 
@@ -40,7 +40,7 @@ fn aggregate(nets: &[ControlNet]) -> Aggregate {
     Aggregate::new(nets.iter().map(|net| Primitive::Patch(Arc::new(Patch::new(*net)))).collect())
 }
 
-/// Rays from a sphere around, at random points of random patches: each of them hits.
+/// Rays from a surrounding sphere towards random points of random patches; every ray hits.
 fn incoherent(nets: &[ControlNet]) -> Vec<Ray> {
     let bounds = bounds(nets);
     (0..RAYS as u64)
@@ -54,7 +54,7 @@ fn incoherent(nets: &[ControlNet]) -> Vec<Ray> {
         .collect()
 }
 
-/// The rays of a camera with 1024 x 1024 pixels that see the surface, row by row: those from the middle of the film.
+/// Rays of a camera with 1024 x 1024 pixels through the middle of the film, row by row, which see the surface.
 fn coherent(nets: &[ControlNet], aggregate: &Aggregate) -> Vec<Ray> {
     let bounds = bounds(nets);
     let eye = bounds.center() + bounds.diagonal() * DVec3::new(0.5, -1.1, 0.8);
@@ -111,7 +111,7 @@ fn speed(c: &mut Criterion) {
     }
 }
 
-/// Time to prepare a patch, to take over a moved control point, and of a ray, by the number of patches.
+/// The time to prepare a patch, to move a control point and to trace a ray, by the number of patches.
 fn scaling(c: &mut Criterion) {
     let mut group = c.benchmark_group("build");
     for (name, net) in [("hill", hill()[0]), ("teapot handle", teapot()[12])] {
@@ -139,14 +139,14 @@ fn edited(patches: &Aggregate, net: &ControlNet) -> Aggregate {
     patches.refitted(primitives)
 }
 
-/// A patch with all that the first ray would prepare.
+/// A patch with the tree that the first ray would prepare.
 fn ready(net: ControlNet) -> Patch {
     let patch = Patch::new(net);
     patch.prepare();
     patch
 }
 
-/// So many copies of some patches, side by side on a square.
+/// The patches, copied `copies` times in a square grid.
 fn scattered(nets: &[ControlNet], copies: usize) -> Vec<ControlNet> {
     let side = (copies as f64).sqrt().ceil() as usize;
     let pitch = bounds(nets).diagonal();

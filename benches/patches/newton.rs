@@ -2,7 +2,7 @@ use glam::{DMat3, DVec3};
 use patchlight::geometry::bezier::ControlNet;
 use patchlight::math::{Aabb, Ray, Sampler, Stream};
 
-/// The textbook way: damped Newton steps in (u, v, t) from random starts, with the nearest of what they find.
+/// The textbook method: damped Newton steps in (u, v, t) from random starts. Returns the nearest hit that they find.
 pub(crate) struct NewtonPatch {
     net: ControlNet,
     bounds: Aabb,
@@ -61,7 +61,7 @@ pub(crate) fn closest_hit(patches: &[NewtonPatch], ray: &Ray) -> Option<f64> {
     patches.iter().filter_map(|patch| patch.intersect(ray)).min_by(f64::total_cmp)
 }
 
-/// The same, but only patches are asked whose box the ray meets.
+/// The nearest hit on the patches whose box the ray meets.
 pub(crate) fn closest_hit_behind_boxes(patches: &[NewtonPatch], ray: &Ray) -> Option<f64> {
     let inverse = ray.direction.recip();
     let meets = |bounds: &Aabb| {

@@ -4,7 +4,7 @@ use patchlight::geometry::Bvh;
 use patchlight::geometry::bezier::QuadMesh;
 use patchlight::math::{Aabb, Ray};
 
-/// Triangles in the tree that patches are in.
+/// Triangles in the BVH that the renderer uses for patches.
 pub(crate) struct Triangles {
     corners: Vec<[DVec3; 3]>,
     bvh: Bvh,
@@ -21,7 +21,7 @@ impl Triangles {
     }
 }
 
-/// The nearest hit, compiled for the same instructions as that of patches.
+/// The nearest hit, compiled for the instruction sets of the patch intersector.
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 pub(crate) fn closest_hit(mesh: &Triangles, ray: &Ray) -> Option<f64> {
     let mut closest = None;
@@ -35,7 +35,7 @@ pub(crate) fn closest_hit(mesh: &Triangles, ray: &Ray) -> Option<f64> {
     closest
 }
 
-/// Moller and Trumbore's test.
+/// The ray-triangle test of Möller and Trumbore.
 #[inline(always)]
 fn intersect([a, b, c]: &[DVec3; 3], ray: &Ray) -> Option<f64> {
     let (ab, ac) = (*b - *a, *c - *a);

@@ -1,8 +1,8 @@
-//! What it costs that a scene could have had more: an iteration as it is planned, with what the scene does not need taken
-//! out of the plan by hand, and with it put in.
+//! The cost of a feature that a scene does not need: an iteration as planned, with the feature removed from the plan by hand, and
+//! with the feature added.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
-#![allow(clippy::print_stdout, reason = "the table is what it is for")]
+#![allow(clippy::print_stdout, reason = "the benchmark prints a table")]
 
 use patchlight::scene::{Location, SceneFile};
 use patchlight::transport::{
@@ -13,9 +13,9 @@ use patchlight::world::{World, prepare};
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// Of a full iteration: the first three are smaller.
+/// The first iteration of full size; the earlier ones are smaller.
 const ITERATION: u64 = 4;
-/// Each way to render a scene is measured so often, in turn.
+/// Measurements of each plan, in turn.
 const ROUNDS: usize = 300;
 
 /// An open box with a diffuse ball.
@@ -65,7 +65,7 @@ center = [0, -0.6, 0]
 radius = 0.4
 "#;
 
-/// It sends light to the floor, and the camera looks the other way.
+/// A mirror that reflects light to the floor, while the camera looks away from it.
 const MIRROR_BEHIND_THE_CAMERA: &str = r#"
 [[object]]
 name = "mirror"
@@ -76,7 +76,7 @@ edge_u = [0, 2, 0]
 edge_v = [2, 0, 0]
 "#;
 
-/// Its lobe takes light of bright spots from photons, and neighbours share what they see in it.
+/// A glossy floor, whose lobe gathers the light of bright spots from photons, and whose lobe samples neighbours reuse.
 const GLOSSY_FLOOR: &str = r#"
 [[material]]
 name = "gloss"
@@ -98,7 +98,7 @@ fn world(text: &str) -> World {
     prepare(&file.scene, &file.location, None).expect("the scene is whole")
 }
 
-/// Seconds that the passes of an iteration take.
+/// The time of the passes of one iteration in seconds.
 fn iteration(world: &World, plan: &Plan) -> f64 {
     let start = Instant::now();
     let caustic = caustic_photon_pass(world, plan, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
@@ -123,7 +123,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// A line of the table: medians of ratios of neighbouring measurements, in turns, for the machine's speed changes.
+/// Prints a row: medians of ratios of neighbouring measurements. Plans take turns, because the machine's speed changes.
 fn row(what: &str, world: &World, without: &Plan, with: &Plan) {
     let plans = [&Plan::new(world), without, with];
     let (mut taken_out, mut put_in) = (Vec::new(), Vec::new());
@@ -140,13 +140,13 @@ fn row(what: &str, world: &World, without: &Plan, with: &Plan) {
 }
 
 fn main() {
-    // One thread: none waits for another.
+    // One thread, so that no thread waits for another.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("there is a thread");
     pool.install(table);
 }
 
 fn table() {
-    println!("| not needed | as planned over taken out by hand | put in by hand over as planned |\n|---|--:|--:|");
+    println!("| not needed | as planned over removed by hand | added by hand over as planned |\n|---|--:|--:|");
     let room = [DIFFUSE, BACK_WALL_AND_BALL].concat();
     let (diffuse, mirrored) = (world(&room), world(&[&room, MIRROR_BEHIND_THE_CAMERA].concat()));
     let caustics = Plan::new(&mirrored).caustics.expect("a mirror makes caustics");

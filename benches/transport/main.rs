@@ -1,4 +1,4 @@
-//! How fast the parts of an iteration are: rays in a room, the photon map, photon and camera passes.
+//! The speed of the parts of an iteration: rays in a room, the photon map, photon passes and the camera pass.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
 
@@ -35,7 +35,7 @@ fn room() -> Aggregate {
     ])
 }
 
-/// From places in the room in all directions.
+/// Rays from random points in the room in random directions.
 fn incoherent() -> Vec<Ray> {
     (0..RAYS as u64)
         .map(|index| {
@@ -58,7 +58,7 @@ fn rays(c: &mut Criterion) {
     group.finish();
 }
 
-/// The scene with a mirror ball and a glass ball of the suite.
+/// `balls.toml` of the suite: a box with a mirror ball and a glass ball.
 fn balls() -> (World, Plan) {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/suite/balls.toml"));
     let file = SceneFile::open(path).expect("the scene is valid");
@@ -67,7 +67,7 @@ fn balls() -> (World, Plan) {
     (world, plan)
 }
 
-/// Of a full iteration: the first three are smaller.
+/// The first iteration of full size; the earlier ones are smaller.
 const ITERATION: u64 = 4;
 
 fn few_samples<'a>(c: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {
@@ -96,7 +96,7 @@ fn passes(c: &mut Criterion) {
     group.throughput(Throughput::Elements(global.photons.len() as u64));
     group.bench_function("build, all threads", |b| b.iter(|| PhotonMap::build(black_box(&global.photons))));
     let map = PhotonMap::build(&global.photons);
-    // Tilted a little, so that whole nodes cannot be summed at once; and straight, as most estimates are.
+    // With a slightly tilted normal, which forbids to sum whole nodes at once; and without tilt, as in most estimates.
     for (name, slope) in [("gather", 1e-6), ("gather, whole nodes at once", 0.0)] {
         let queries = queries(&global.photons, slope);
         group.throughput(Throughput::Elements(count_found(&global.photons, &queries)));
@@ -105,9 +105,9 @@ fn passes(c: &mut Criterion) {
     group.finish();
 }
 
-/// Discs around some photons on the floor, as large as those of visible points.
+/// Discs around some photons on the floor, as large as the discs of visible points.
 fn queries(photons: &[Photon], slope: f32) -> Vec<Query> {
-    // The first object, its front.
+    // The front of the first object.
     let floor: Vec<&Photon> = photons.iter().filter(|photon| photon.tag >> 8 == 1).collect();
     let step = floor.len() / 1000;
     let around = |photon: &&Photon| Query {
@@ -119,7 +119,7 @@ fn queries(photons: &[Photon], slope: f32) -> Vec<Query> {
         tag_span: 0xff,
     };
     let mut queries: Vec<Query> = floor.iter().step_by(step.max(1)).map(around).collect();
-    // In the order of tiles, as visible points come.
+    // In the order of tiles, like visible points.
     queries.sort_by_key(|q| ((q.position.x * 16.0).floor() as i32, (q.position.z * 16.0).floor() as i32));
     queries
 }

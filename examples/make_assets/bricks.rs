@@ -21,7 +21,7 @@ pub(crate) fn color(p: DVec2) -> DVec3 {
     mortar.lerp(sooty, smoothstep(0.0, 0.004, depth))
 }
 
-/// Height in texture widths: rounded bricks, each a little askew, above rough joints.
+/// Height in texture widths: rounded bricks, each slightly askew, above rough joints.
 pub(crate) fn height(p: DVec2) -> f64 {
     let Brick { id, local, depth } = brick_at(p);
     let lift = 0.0035 * cell(id, 5);

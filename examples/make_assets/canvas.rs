@@ -1,10 +1,10 @@
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
 
-/// Points along each side of a pixel at which a picture is taken.
+/// Sample points along each side of a pixel.
 const SAMPLES: u32 = 3;
 
-/// A picture of a linear colour over the unit square, averaged over each pixel, as sRGB.
+/// An sRGB picture of a linear colour over the unit square, averaged over each pixel.
 pub(crate) fn paint(width: u32, height: u32, color: impl Fn(DVec2) -> DVec3) -> RgbImage {
     RgbImage::from_fn(width, height, |x, y| {
         let sum: DVec3 = samples(x, y, width, height).map(&color).sum();

@@ -36,12 +36,12 @@ fn background(q: DVec2) -> DVec3 {
     shade.lerp(hex(0xd8ecf2), 1.0 - smoothstep(0.9, 2.4, q.length()))
 }
 
-/// About the distance from an ellipse, below 0 inside.
+/// The approximate signed distance from an ellipse, negative inside.
 fn ellipse(q: DVec2, center: DVec2, radii: DVec2) -> f64 {
     (((q - center) / radii).length() - 1.0) * radii.min_element()
 }
 
-/// About the distances from an open, laughing mouth and from its upper teeth.
+/// The approximate signed distances from an open, laughing mouth and from its upper teeth.
 fn mouth(q: DVec2) -> (f64, f64) {
     let below = (q - DVec2::new(0.0, -0.02)).length() - 0.68;
     let lip = q.y + 0.2 - 0.18 * q.x * q.x;

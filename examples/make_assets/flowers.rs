@@ -29,7 +29,7 @@ pub(crate) fn color(p: DVec2) -> DVec3 {
     paint
 }
 
-/// Covers the paint where `inside` is above 0.
+/// Paints over the colour where `inside` is above 0.
 fn cover(paint: &mut DVec3, shade: DVec3, inside: f64) {
     *paint = paint.lerp(shade, smoothstep(-0.006, 0.006, inside));
 }

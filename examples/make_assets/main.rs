@@ -1,7 +1,7 @@
 //! Draws the textures of the built-in scenes: `cargo run --release --example make_assets [FOLDER]`.
 //!
-//! Every picture is a function of its coordinates, with (0, 0) at the bottom left as in the scene format; so the same
-//! program draws the same files everywhere. All but the face repeat without a seam.
+//! Every picture is a function of its coordinates, with (0, 0) at the bottom left as in the scene format, so the files do not depend
+//! on the machine. All textures but the face repeat without a seam.
 
 mod bricks;
 mod canvas;

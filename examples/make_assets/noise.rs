@@ -1,6 +1,6 @@
 use glam::{DVec2, IVec2};
 
-/// A number in `[0, 1)` for a cell of an integer grid; well mixed (the finaliser of MurmurHash3).
+/// A hashed number in `[0, 1)` for a cell of an integer grid (the finaliser of MurmurHash3).
 pub(crate) fn cell(at: IVec2, seed: u32) -> f64 {
     let mut h = (at.x as u32).wrapping_mul(0x9e37_79b1)
         ^ (at.y as u32).wrapping_mul(0x85eb_ca77)
@@ -10,7 +10,7 @@ pub(crate) fn cell(at: IVec2, seed: u32) -> f64 {
     f64::from(h ^ (h >> 16)) / 4_294_967_296.0
 }
 
-/// Smooth noise in `[0, 1]` over the unit square, with this many cells along u and v; repeats.
+/// Smooth, periodic noise in `[0, 1]` over the unit square, with `cells` cells along u and v.
 pub(crate) fn smooth(p: DVec2, cells: IVec2, seed: u32) -> f64 {
     let scaled = p * cells.as_dvec2();
     let corner = scaled.floor();
@@ -22,7 +22,7 @@ pub(crate) fn smooth(p: DVec2, cells: IVec2, seed: u32) -> f64 {
     bottom + (top - bottom) * t.y
 }
 
-/// A sum of smooth noises, each twice as fine and half as strong as the one before; in `[0, 1]`, mostly near 1/2.
+/// A sum of octaves of smooth noise, each twice as fine and half as strong as the previous; in `[0, 1]`, mostly near 1/2.
 pub(crate) fn fractal(p: DVec2, cells: IVec2, octaves: u32, seed: u32) -> f64 {
     let sum: f64 = (0..octaves).map(|k| 0.5f64.powi(k as i32) * smooth(p, cells * (1 << k), seed + k)).sum();
     sum / (2.0 - 0.5f64.powi(octaves as i32 - 1))

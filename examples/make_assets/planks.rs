@@ -20,7 +20,7 @@ pub(crate) fn color(p: DVec2) -> DVec3 {
     wood * (1.0 - 0.85 * gap(across, along))
 }
 
-/// Dark streaks along the plank, in `[0, 1]`; each plank is cut from another place.
+/// Dark streaks along the plank, in `[0, 1]`, different on each plank.
 fn grain(p: DVec2, plank: IVec2) -> f64 {
     let moved = p + DVec2::new(cell(plank, 3), cell(plank, 4));
     let bend = 0.05 * fractal(moved, IVec2::new(8, 3), 3, 10);
@@ -31,7 +31,7 @@ fn grain(p: DVec2, plank: IVec2) -> f64 {
     (0.25 + 0.2 * rings) * patches * 1.6 + 0.35 * fibres * patches
 }
 
-/// How much of the dark gap between planks is here.
+/// The weight of the dark gap between planks at a point, in `[0, 1]`.
 fn gap(across: f64, along: f64) -> f64 {
     let edge = |x: f64| (x - x.round()).abs();
     let sides = 1.0 - smoothstep(0.012, 0.03, edge(across));

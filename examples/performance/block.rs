@@ -1,9 +1,13 @@
-//! The parts of a page that are generated.
+//! The generated parts of a page.
 
-/// What ends a block.
+/// The marker that ends a block.
 const END: &str = "<!-- end -->";
 
-/// The page with other content in its block of this name; blank lines stand around the content.
+/// The page with `content`, between blank lines, in the block `name`.
+///
+/// # Errors
+///
+/// When the page has no such block, has two, or has one without an end.
 pub(crate) fn replaced(page: &str, name: &str, content: &str) -> Result<String, String> {
     let start = format!("<!-- table: {name} -->");
     let (before, rest) = page.split_once(&start).ok_or_else(|| format!("there is no {start}"))?;

@@ -1,4 +1,4 @@
-//! Programs that are run in the project's folder.
+//! Programs run in the project's folder.
 
 use std::{
     path::Path,
@@ -10,13 +10,13 @@ pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Runs a command, whose words are separated by spaces, and gives what it writes to standard output.
+/// Runs a command, whose words are separated by spaces, and returns its standard output.
 pub(crate) fn output(command: &str) -> Result<String, String> {
     let bytes = finished(command, Stdio::piped())?;
     String::from_utf8(bytes).map_err(|e| format!("{command}: {e}"))
 }
 
-/// Runs a command that people see at work.
+/// Runs a command whose standard output goes to the terminal.
 pub(crate) fn run(command: &str) -> Result<(), String> {
     finished(command, Stdio::inherit()).map(|_| ())
 }

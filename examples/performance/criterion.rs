@@ -1,10 +1,10 @@
-//! What criterion prints, as a table.
+//! The output of criterion as a table.
 
-/// A line for each measurement: the middle one of the three values that criterion gives for a time and a throughput.
+/// A Markdown table with a row for each measurement: the middle of criterion's three values of the time and the throughput.
 pub(crate) fn table(output: &str) -> Result<String, String> {
     let (mut name, mut rows) = ("", Vec::<[String; 3]>::new());
     for line in output.lines() {
-        // Long names stand in the line before.
+        // Criterion prints a long name on the line before.
         let name_here = line.split(" time:").next().unwrap_or(line).trim_end();
         if !line.starts_with(' ') && !name_here.is_empty() {
             name = name_here;
@@ -22,7 +22,7 @@ pub(crate) fn table(output: &str) -> Result<String, String> {
     Ok(format!("| | time | throughput |\n|---|--:|--:|\n{lines}"))
 }
 
-/// Of `[1.2 ms 1.3 ms 1.4 ms]` after a label the value in the middle; `None` for percentages, which tell what has changed.
+/// The middle value of `[1.2 ms 1.3 ms 1.4 ms]` after a label; `None` for the percentages of a change.
 fn middle(line: &str, label: &str) -> Option<String> {
     let values = line.split_once(label)?.1.trim().strip_prefix('[')?.strip_suffix(']')?;
     let words: Vec<_> = values.split(' ').collect();

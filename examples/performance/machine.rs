@@ -1,9 +1,9 @@
-//! Where and with what was measured.
+//! The machine and the commit of a measurement.
 
 use crate::command::output;
 use std::{fs, thread};
 
-/// The machine as a table.
+/// A Markdown table of the processor, the threads, the compiler and the commit.
 pub(crate) fn table(commit: &str) -> Result<String, String> {
     let processors = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let processor = model(&processors).unwrap_or("unknown");
@@ -15,14 +15,14 @@ pub(crate) fn table(commit: &str) -> Result<String, String> {
     ))
 }
 
-/// The commit that is measured, and whether anything but the documentation differs from it.
+/// The measured commit, followed by "with changes" where a file outside `docs` differs from it.
 pub(crate) fn commit() -> Result<String, String> {
     let commit = output("git rev-parse --short HEAD")?;
     let changes = output("git status --porcelain --untracked-files=no -- . :!docs")?;
     Ok(format!("{}{}", commit.trim(), if changes.is_empty() { "" } else { " with changes" }))
 }
 
-/// The first processor that the system lists.
+/// The model of the first processor in `/proc/cpuinfo`; `None` where it lists none.
 fn model(processors: &str) -> Option<&str> {
     let line = processors.lines().find(|line| line.starts_with("model name"))?;
     line.split_once(": ").map(|(_, name)| name)

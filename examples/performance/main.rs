@@ -1,10 +1,18 @@
-//! Measures everything again that `docs/performance.md` has in its tables, and writes it there:
-//! `cargo run --release --example performance [STEP ...]`; without a step all of them, which takes about an hour.
+//! Measures the tables of `docs/performance.md` again and writes them into the page:
+//! `cargo run --release --example performance [STEP ...]`. Without a step it runs all steps, which takes about an hour.
 //!
-//! What a step gives stands between `<!-- table: STEP -->` and `<!-- end -->`. It is written as soon as the step is done, so that
-//! a step that fails takes nothing of those before it. Plots and whole tables of suites go into `docs/performance`.
+//! The table of a step stands between `<!-- table: STEP -->` and `<!-- end -->`. The page is written after each step, so that a
+//! failed step loses no earlier table. Plots and complete tables of suites go into `docs/performance`.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `block` | the generated parts of a page |
+//! | `command` | programs run in the project's folder |
+//! | `criterion` | the output of criterion as a table |
+//! | `machine` | the machine and the commit of a measurement |
+//! | `step` | the steps, and the command of each |
 
-#![allow(clippy::print_stderr, reason = "people want to see where it is")]
+#![allow(clippy::print_stderr, reason = "the steps take long; the user sees the progress")]
 
 mod block;
 mod command;
@@ -30,7 +38,7 @@ fn main() -> ExitCode {
 
 fn run(names: &[String]) -> Result<(), String> {
     let steps = step::chosen(names)?;
-    // Whether there is a place for every table is told now, not after an hour.
+    // A missing place for a table is reported now, not after an hour.
     let page = read_page()?;
     for step in &steps {
         block::replaced(&page, step.name, "").map_err(in_page)?;
@@ -39,7 +47,7 @@ fn run(names: &[String]) -> Result<(), String> {
     for Step { name, source } in steps {
         eprintln!("{name}: {}", source.description());
         let table = source.measure(&commit)?;
-        // Read again: people may have written to the page in the meantime.
+        // Read again, because the user may have edited the page in the meantime.
         let page = block::replaced(&read_page()?, name, &table).map_err(in_page)?;
         write_whole(&command::root().join(PAGE), page.as_bytes()).map_err(in_page)?;
     }

@@ -1,16 +1,16 @@
-//! What can be measured.
+//! The steps of a measurement, and the command of each.
 
 use crate::{command, criterion, machine};
 use std::fs;
 
-/// One table, or several that one command makes.
+/// One command, and the name of the block that takes its tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Step {
     pub(crate) name: &'static str,
     pub(crate) source: Source,
 }
 
-/// Where a table comes from.
+/// The command of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
     Machine,
@@ -18,7 +18,7 @@ pub(crate) enum Source {
     Suite(&'static str),
     /// A benchmark that prints tables.
     Tables(&'static str),
-    /// A benchmark of criterion.
+    /// A benchmark that criterion runs.
     Criterion(&'static str),
 }
 
@@ -35,7 +35,7 @@ const STEPS: [Step; 9] = [
     Step { name: "patches", source: Source::Criterion("patches") },
 ];
 
-/// The steps of these names, in the order of the page; without names all.
+/// The steps named in `names`, in the order of the page; all steps where `names` is empty.
 pub(crate) fn chosen(names: &[String]) -> Result<Vec<Step>, String> {
     if let Some(name) = names.iter().find(|name| STEPS.iter().all(|step| step.name != **name)) {
         return Err(format!("there is no step {name}, but {}", STEPS.map(|step| step.name).join(", ")));
@@ -45,7 +45,7 @@ pub(crate) fn chosen(names: &[String]) -> Result<Vec<Step>, String> {
 }
 
 impl Source {
-    /// The command, as people would type it.
+    /// The command line.
     pub(crate) fn description(self) -> String {
         match self {
             Self::Machine => "the machine".to_owned(),
@@ -59,7 +59,7 @@ impl Source {
         }
     }
 
-    /// What stands on the page: the tables, below the command and the commit that they are of.
+    /// Runs the command. Returns the text of the block: the tables below the command and the commit.
     pub(crate) fn measure(self, commit: &str) -> Result<String, String> {
         let command = self.description();
         let tables = match self {
