@@ -106,7 +106,7 @@ fn iteration(world: &World, plan: &Plan) -> f64 {
     let maps = Maps {
         caustic: PhotonMap::build(&caustic.photons),
         global: PhotonMap::build(&global.photons),
-        focused: PhotonMap::build(&global.focused),
+        indirect_caustic: PhotonMap::build(&global.indirect_caustics),
         glossy: PhotonMap::build(&global.glossy),
     };
     let band = |rows| {
@@ -169,8 +169,8 @@ fn table() {
     let glossy = Plan::new(&world(&[&room, GLOSSY_FLOOR].concat()));
     let planned = |from: &Plan| {
         let mut plan = Plan::new(&diffuse);
-        plan.lobe_light = from.lobe_light.clone();
-        plan.shares_lobes = from.shares_lobes;
+        plan.glossy_mis = from.glossy_mis.clone();
+        plan.reuses_lobes = from.reuses_lobes;
         plan
     };
     row("light in gloss", &diffuse, &planned(&Plan::new(&diffuse)), &planned(&glossy));

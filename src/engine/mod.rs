@@ -16,4 +16,4 @@ pub use frame::{Frame, PassSeconds, PlanSummary, Stats};
 pub use session::{Session, SessionError};
 pub use worker::{Command, Engine, EngineError, EngineSettings, Status};
 
-pub use crate::transport::{Counters, PlanNote};
+pub use crate::transport::{Counters, PlanItem, PlanNote};

@@ -3,7 +3,7 @@
 use crate::closed_forms::session_of_seed;
 use glam::{DVec2, DVec3};
 use patchlight::scene::Location;
-use patchlight::transport::{Cancel, Plan, camera_pass, seen_lobes};
+use patchlight::transport::{Cancel, Plan, camera_pass, lobe_samples};
 use patchlight::world::prepare;
 use std::f64::consts::{PI, TAU};
 
@@ -120,10 +120,10 @@ fn edges_share_no_lobes() {
     let plan = Plan::new(&world);
     let rows = 0..SIZE;
     let seen = camera_pass(&world, &plan, &rows, 1, 4, Cancel::NEVER).expect("never cancelled");
-    let lobes = seen_lobes(&world, &plan, &seen.visible_points, &rows, 4);
+    let lobes = lobe_samples(&world, &plan, &seen.visible_points, &rows, 4);
     let met =
         |pixel: usize| seen.visible_points.iter().filter(|p| p.pixel as usize == pixel && p.seen_directly).count();
-    let edges: Vec<usize> = (0..lobes.len()).filter(|&k| seen.samples[k].is_varied).collect();
+    let edges: Vec<usize> = (0..lobes.len()).filter(|&k| seen.samples[k].is_heterogeneous).collect();
     assert!(edges.iter().any(|&k| met(k) == 1), "one of its paths met the floor, the others nothing");
     assert!(edges.iter().all(|&k| lobes[k].is_none()), "lobes are shared at edges");
     assert!(lobes.iter().flatten().count() > lobes.len() / 8, "lobes are shared elsewhere");

@@ -2,7 +2,7 @@
 
 use crate::closed_forms::scene;
 use patchlight::scene::Location;
-use patchlight::transport::Plan;
+use patchlight::transport::{Plan, PlanItem};
 use patchlight::world::prepare;
 
 const DIRECT: &str = "direct light";
@@ -52,7 +52,7 @@ fn rendered(max_bounces: u32, objects: &[String]) -> Vec<String> {
     let world = prepare(&scene(&text).scene, &Location::Unsaved, None).expect("the scene can be prepared");
     let notes = Plan::new(&world).notes;
     assert!(notes.iter().all(|note| !note.reason.is_empty()), "every decision has a reason: {notes:?}");
-    notes.into_iter().filter(|note| note.rendered).map(|note| note.what).collect()
+    notes.into_iter().filter(|note| note.rendered).map(|note| note.item.to_string()).collect()
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn lamps_that_light_nothing_in_view_get_few_paths() {
     let plan = [plan(""), plan(closed)];
     assert!(plan[0].global_paths[1] > plan[0].global_paths[0], "the stronger one");
     assert!(plan[1].global_paths[1] < plan[1].global_paths[0] && plan[1].global_paths[1] > 0, "but not quite none");
-    let is_said = |plan: &Plan| plan.notes.iter().any(|note| note.what == "most paths of lights out of view");
+    let is_said = |plan: &Plan| plan.notes.iter().any(|note| note.item == PlanItem::PathsOutOfView);
     assert_eq!(plan.each_ref().map(is_said), [false, true]);
 }
 

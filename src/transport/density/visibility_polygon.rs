@@ -135,7 +135,7 @@ fn at_diamond_angle(angle: f64) -> DVec2 {
 mod tests {
     use super::*;
     use crate::scene::{Location, SceneFile};
-    use crate::transport::kernel::Clipped;
+    use crate::transport::density::kernel::Clipped;
     use crate::world::prepare;
 
     /// A floor of 2 x 2 about the origin, and screens that stand on it along x = 0.2 and along its edge x = 1.

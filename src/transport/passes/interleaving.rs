@@ -109,7 +109,7 @@ mod tests {
     fn pixels_share_the_irradiance_of_each_surface_that_both_see() {
         let (floor, wall) = (0, 8);
         let points = [point(0, floor, 0.0), point(0, wall, 5.0), point(1, wall, 5.1), point(1, floor, 0.1)];
-        let shared = |points: &[VisiblePoint]| Interleaving::new(Lattice::new(2, 0), points, |_| 1.0).source;
+        let shared = |points: &[VisiblePoint]| Interleaving::new(InterleavedGrid::new(2, 0), points, |_| 1.0).source;
         assert_eq!(shared(&points), [Some(0), Some(1), Some(1), Some(0)]);
         let far = [points[0], points[1], point(1, wall, 5.4), point(1, floor, 0.1)];
         assert_eq!(shared(&far)[2], None, "a fourth of the radius is the limit");

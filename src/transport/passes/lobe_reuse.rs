@@ -71,7 +71,7 @@ fn lobe_sample(world: &World, plan: &Plan, point: &VisiblePoint, iteration: u64)
 
 /// Adds to each pixel of a film of this width the mean over its own lobe sample and those of its neighbours. The samples come in bands
 /// of whole rows.
-pub fn reuse_lobes<'a>(bands: impl Iterator<Item = &'a [Option<LobeSample>]>, width: u32, film: &mut [Rgb]) {
+pub(super) fn reuse_lobes<'a>(bands: impl Iterator<Item = &'a [Option<LobeSample>]>, width: u32, film: &mut [Rgb]) {
     let rows: Vec<_> = bands.flat_map(|lobes| lobes.chunks(width as usize)).collect();
     film.par_chunks_mut(width as usize).zip(0..rows.len()).for_each(|(film, row)| {
         for (column, lobe) in rows[row].iter().enumerate() {

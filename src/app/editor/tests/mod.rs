@@ -20,7 +20,7 @@ use crate::app::editor::Editor;
 use crate::app::files::{Chooser, Request};
 use crate::app::shell::Dialog;
 use crate::app::theme;
-use crate::engine::{Command, Counters, Frame, PassSeconds, PlanNote, PlanSummary, Stats, Status};
+use crate::engine::{Command, Counters, Frame, PassSeconds, PlanItem, PlanNote, PlanSummary, Stats, Status};
 use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::scene::{Scene, SceneFile};
@@ -99,7 +99,7 @@ fn answer_dialogs(ui: &mut Ui, path: Option<PathBuf>) {
 fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
     let pixels = (0..size * size).map(|k| Rgb::splat((k % 7) as f32 / 7.0)).collect();
     let plan = PlanSummary {
-        notes: vec![PlanNote { what: "caustics".into(), rendered: false, reason: "no specular surface".into() }],
+        notes: vec![PlanNote { item: PlanItem::Caustics, rendered: false, reason: "no specular surface".into() }],
     };
     let stats = Stats {
         iterations: 3,
