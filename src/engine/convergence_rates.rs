@@ -1,34 +1,35 @@
-//! How fast the noise of stratified samples falls, which nobody knows beforehand.
+//! The convergence rate of stratified samples, fitted to the measured noise.
 
-/// The variance of the mean of `n` samples of a pixel falls like `n` to one of these negative powers, or to one in between: 1 in
-/// glossy reflections, 1.5 where an edge runs through the pixel \[Mitchell96\], up to 3 where its light is smooth and `n` a
-/// power of two \[Owen97\].
-const POWERS: [f64; 5] = [1.0, 1.5, 2.0, 2.5, 3.0];
-/// The place of the greatest power for other numbers: samples that are not yet balanced by others err by themselves.
+/// Convergence rates: the variance of the mean of `n` samples of a pixel falls like `n` to the negative power of one of these, or one in
+/// between: 1 in glossy reflections, 1.5 where an edge runs through the pixel \[Mitchell96\], up to 3 where the light is smooth and
+/// `n` a power of two \[Owen97\].
+const RATES: [f64; 5] = [1.0, 1.5, 2.0, 2.5, 3.0];
+/// Index of the greatest rate for other numbers than powers of two, whose last samples are not balanced by further ones.
 const UNBALANCED: usize = 1;
 
-/// What two parts of each pixel's samples tell, for each power: sums over pixels.
+/// Variances for each rate, from the difference of two parts of each pixel's samples; sums over pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct ConvergenceRates {
-    /// The variance of the mean of samples of weight 1.
-    of_one: [f64; POWERS.len()],
-    /// The variance of the mean of all.
-    of_all: [f64; POWERS.len()],
+    /// Variance of the mean of samples with weight 1.
+    of_one: [f64; RATES.len()],
+    /// Variance of the mean of all samples.
+    of_all: [f64; RATES.len()],
 }
 
 impl ConvergenceRates {
-    /// Adds a pixel, the means of whose first and other samples differ by so much, squared and summed over channels.
+    /// Adds a pixel: the squared difference, summed over channels, between the means of its first and its other samples, with the weights
+    /// of both.
     pub(super) fn include(&mut self, squared_difference: f64, first: f64, other: f64) {
         if !(first > 0.0 && other > 0.0) {
             return;
         }
         let all = first + other;
         let (of_first, of_other, of_all) = (variances(first), variances(other), variances(all));
-        let last = if is_power_of_two(all) { POWERS.len() - 1 } else { UNBALANCED };
+        let last = if is_power_of_two(all) { RATES.len() - 1 } else { UNBALANCED };
         for (k, (one_sum, all_sum)) in self.of_one.iter_mut().zip(&mut self.of_all).enumerate() {
             let k = k.min(last);
-            // The parts complement each other, so that their errors do not vary independently: by how much follows from the
-            // law, which holds for the parts and for all, whose mean is that of the parts.
+            // The parts complement each other, so their errors are correlated. The covariance follows from the rate, which holds for
+            // both parts and for all samples, whose mean is that of the parts.
             let squared = |weight: f64, variance: f64| weight * weight * variance;
             let covariances = squared(all, of_all[k]) - squared(first, of_first[k]) - squared(other, of_other[k]);
             let of_difference = of_first[k] + of_other[k] - covariances / (first * other);
@@ -38,14 +39,14 @@ impl ConvergenceRates {
         }
     }
 
-    /// The squared noise of the mean of all samples, by the law that fits both these parts and those of half as many samples:
-    /// by it both say the same of one sample. The slowest law that there is without those.
+    /// The squared noise of the mean of all samples, at the rate by which these parts and the halves of the first part agree on the variance
+    /// of one sample. The slowest rate where `halves` is `None`.
     pub(super) fn squared_noise(&self, halves: Option<&Self>) -> f64 {
         let Some(halves) = halves else { return self.of_all[0] };
-        // A law that is too slow says that one sample deviates the less the more there are.
+        // At too slow a rate, the variance of one sample seems to fall with the number of samples.
         let growth = |k: usize| self.of_one[k] / halves.of_one[k];
-        let Some(upper) = (0..POWERS.len()).find(|&k| !(growth(k) < 1.0)) else {
-            return self.of_all[POWERS.len() - 1];
+        let Some(upper) = (0..RATES.len()).find(|&k| !(growth(k) < 1.0)) else {
+            return self.of_all[RATES.len() - 1];
         };
         let Some(lower) = upper.checked_sub(1) else { return self.of_all[0] };
         let part = growth(lower).ln() / (growth(lower).ln() - growth(upper).ln());
@@ -57,8 +58,8 @@ fn is_power_of_two(weight: f64) -> bool {
     weight.fract() == 0.0 && (weight as u64).is_power_of_two()
 }
 
-/// The variance of the mean of samples of this weight for each power, where that of weight 1 has the variance 1.
-fn variances(weight: f64) -> [f64; POWERS.len()] {
+/// The variance of the mean of samples of this weight for each rate, relative to weight 1.
+fn variances(weight: f64) -> [f64; RATES.len()] {
     let (x, root) = (weight.recip(), weight.recip().sqrt());
     [x, x * root, x * x, x * x * root, x * x * x]
 }
@@ -69,7 +70,7 @@ mod tests {
 
     #[test]
     fn variances_fall_like_the_powers() {
-        for (variance, power) in variances(7.0).into_iter().zip(POWERS) {
+        for (variance, power) in variances(7.0).into_iter().zip(RATES) {
             assert!((variance / 7f64.powf(-power) - 1.0).abs() < 1e-12, "{power}");
         }
     }

@@ -1,3 +1,5 @@
+//! Sums over iterations, and the estimate of their error.
+
 use super::convergence_rates::ConvergenceRates;
 use crate::film::LinearImage;
 use crate::math::Rgb;
@@ -5,56 +7,56 @@ use crate::transport::PixelSamples;
 use glam::DVec3;
 use std::ops::{AddAssign, Sub};
 
-/// The film: sums over iterations. Sums of iterations 1 to n equal the merged sums of its parts.
+/// The film: sums over iterations. The sums of iterations 1 to n equal the merged sums of consecutive parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmSums {
     width: u32,
     height: u32,
     iterations: u64,
-    /// Of what photons bring, in all iterations.
+    /// Sum of the weights of the iterations in the mean of photons.
     weight: f64,
-    /// Over all iterations. Empty before the first: a scene that is edited again at once needs no film.
+    /// Sums over all iterations. Empty before the first iteration: a scene that is edited again at once needs no film.
     all: Vec<PixelSums>,
-    /// Over the first ones, as many as the greatest power of two that leaves others: how much they differ from these tells
-    /// the error. Not over every other one: neighbours in a sequence of low discrepancy complement each other, and
-    /// differ more than their mean errs.
+    /// Sums over the first iterations, up to the last power of two before the present one. Their difference to the other iterations
+    /// tells the error. Every second iteration would not do: neighbours in a low-discrepancy sequence complement each other, and differ
+    /// more than their mean errs.
     first: Vec<PixelSums>,
     first_weight: f64,
-    /// How much halves of the first ones differed, when they were all that there was.
+    /// The differences between the halves of the first iterations.
     halves: Option<Differences>,
 }
 
-/// The others tell nothing of the noise as long as they weigh less than the first of these parts of the first ones, which are too
-/// few to be like their mean, and all of it from the second part on.
-const TELLING_PARTS: [f64; 2] = [0.25, 0.75];
+/// Weight of the other iterations, over that of the first ones, from which on their difference begins to tell the noise, and from which
+/// on it alone tells it. Fewer iterations are not representative.
+const TELLING_WEIGHTS: [f64; 2] = [0.25, 0.75];
 
-/// By how much the first iterations and the others differ.
+/// The differences between the first iterations and the other ones.
 #[derive(Clone, Debug, PartialEq)]
 struct Differences {
-    /// Of the mean of all, over pixels and channels.
+    /// Mean squared noise of the mean over all iterations, over pixels and channels.
     squared_noise: f64,
-    /// What they tell of the samples' noise.
+    /// The noise of camera samples by convergence rate.
     rates: ConvergenceRates,
 }
 
-/// Sums for a pixel, in double precision: single stalls after some ten million additions.
+/// Sums for a pixel, in double precision: single precision stalls after some ten million additions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct PixelSums {
-    /// Radiance that photons bring, times the weights of the iterations.
+    /// Weighted sum of the radiance from photons.
     photons: DVec3,
-    /// Means of the samples of the rest, times their weights.
+    /// Weighted sum of the means of camera samples.
     samples: DVec3,
-    /// The weights of the samples.
+    /// Sum of the weights of camera samples.
     samples_weight: f64,
 }
 
 impl PixelSums {
-    /// The mean radiance of the samples; black where there are none.
+    /// Weighted mean of the camera samples; black without samples.
     fn mean_sample(&self) -> DVec3 {
         if self.samples_weight > 0.0 { self.samples / self.samples_weight } else { DVec3::ZERO }
     }
 
-    /// The mean radiance of iterations of so much weight.
+    /// Mean radiance over iterations with this sum of weights.
     fn radiance(&self, weight: f64) -> DVec3 {
         self.photons / weight + self.mean_sample()
     }
@@ -81,10 +83,10 @@ impl Sub for PixelSums {
 }
 
 impl FilmSums {
-    /// From so many iterations on there is an estimate of the error: two do not tell how fast the noise falls.
+    /// The first iteration after which the error is estimated: two do not tell how fast the noise falls.
     pub const ESTIMATED_FROM: u64 = 3;
 
-    /// Nothing yet.
+    /// A film without iterations.
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             width,
@@ -102,8 +104,8 @@ impl FilmSums {
         self.width as usize * self.height as usize
     }
 
-    /// Adds the next iteration: for each pixel the radiance that photons bring, with this weight, and the samples of the rest,
-    /// with theirs.
+    /// Adds the next iteration: the radiance from photons, with this weight, and the camera samples, with their own weights; one of each
+    /// for every pixel.
     pub fn commit(&mut self, weight: f64, photons: &[Rgb], samples: &[PixelSamples]) {
         debug_assert_eq!([photons.len(), samples.len()], [self.pixel_count(); 2], "an iteration covers the film");
         self.all.resize(self.pixel_count(), PixelSums::default());
@@ -122,7 +124,7 @@ impl FilmSums {
         self.weight += weight;
     }
 
-    /// Adds the iterations of another film of the same size, which follow these.
+    /// Adds the iterations of another film of the same size, which follow those of this film.
     pub fn merge(&mut self, other: &Self) {
         debug_assert_eq!((other.width, other.height), (self.width, self.height), "films of one size");
         if self.all.is_empty() {
@@ -135,19 +137,19 @@ impl FilmSums {
         self.weight += other.weight;
     }
 
-    /// What follows is compared with what is there.
+    /// Ends the first iterations: the following ones are compared with them.
     fn end_first(&mut self) {
         self.halves = self.differences();
         self.first.clone_from(&self.all);
         self.first_weight = self.weight;
     }
 
-    /// How many iterations were added.
+    /// Number of iterations in the film.
     pub fn iterations(&self) -> u64 {
         self.iterations
     }
 
-    /// The mean of the iterations; black before the first.
+    /// The mean over the iterations; black before the first.
     pub fn image(&self) -> LinearImage {
         if self.all.is_empty() {
             return LinearImage::black(self.width, self.height);
@@ -156,14 +158,13 @@ impl FilmSums {
         LinearImage { width: self.width, height: self.height, pixels }
     }
 
-    /// Estimate of the RMSE of the image over its mean: of its noise, from the difference of the means of the first iterations and
-    /// of the others, and of its bias, whose mean square over pixels and channels is given. `None` before
-    /// [`Self::ESTIMATED_FROM`] iterations and for a black picture.
+    /// Estimated RMSE of the image over its mean: from its noise, which the difference between the first and the other iterations tells,
+    /// and its mean squared bias over pixels and channels. `None` before [`Self::ESTIMATED_FROM`] iterations and for a black picture.
     pub fn error_estimate(&self, squared_bias: f64) -> Option<f64> {
         let halves = self.halves.as_ref()?;
-        let [least, most] = TELLING_PARTS;
-        let part = (self.weight - self.first_weight) / self.first_weight;
-        let trust = ((part - least) / (most - least)).clamp(0.0, 1.0);
+        let [least, most] = TELLING_WEIGHTS;
+        let other_weight = (self.weight - self.first_weight) / self.first_weight;
+        let trust = ((other_weight - least) / (most - least)).clamp(0.0, 1.0);
         let before = halves.squared_noise * self.first_weight / self.weight;
         let now = if trust > 0.0 { self.differences()?.squared_noise } else { 0.0 };
         let squared_noise = (1.0 - trust) * before + trust * now;
@@ -172,7 +173,7 @@ impl FilmSums {
         (mean > 0.0).then(|| (squared_noise + squared_bias).sqrt() / mean)
     }
 
-    /// By how much the first iterations and the others differ; `None` if there are not both.
+    /// The differences between the first iterations and the other ones; `None` without either.
     fn differences(&self) -> Option<Differences> {
         let other_weight = self.weight - self.first_weight;
         if !(other_weight > 0.0 && self.first_weight > 0.0) {
@@ -187,7 +188,7 @@ impl FilmSums {
             rates.include(samples, first.samples_weight, other.samples_weight);
         }
         let channels = 3.0 * self.all.len() as f64;
-        // Of independent photons.
+        // The variance of the mean of all for independent photons.
         let photons = photons * (self.first_weight * other_weight) / self.weight.powi(2);
         let samples = rates.squared_noise(self.halves.as_ref().map(|halves| &halves.rates));
         Some(Differences { squared_noise: (photons + samples) / channels, rates })

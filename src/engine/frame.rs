@@ -1,71 +1,73 @@
+//! A picture and its statistics.
+
 use crate::film::LinearImage;
 use crate::transport::{Counters, PlanNote};
 use std::sync::Arc;
 
-/// A picture at some moment, and how it came about.
+/// A picture of a scene at some moment of its rendering.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Of the scene: grows with each edit.
+    /// Generation of the scene, which grows with each edit.
     pub generation: u64,
-    /// A quick first picture, possibly of fewer pixels than the film has.
+    /// Whether this is a quick first picture, possibly with fewer pixels than the film.
     pub draft: bool,
-    /// Iterations in it; 0 for a draft.
+    /// Number of iterations in the picture; 0 for a draft.
     pub iteration: u64,
     /// Linear radiance.
     pub image: Arc<LinearImage>,
-    /// How it came about.
+    /// Statistics of the rendering so far.
     pub stats: Stats,
-    /// What is rendered and what is skipped.
+    /// The decisions of the plan.
     pub plan: Arc<PlanSummary>,
 }
 
-/// What is rendered and what is skipped, and why.
+/// The decisions of a plan: what is rendered, what is skipped, and why.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PlanSummary {
     /// Every decision.
     pub notes: Vec<PlanNote>,
 }
 
-/// How a picture came about.
+/// Statistics of a picture's rendering.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stats {
-    /// In the picture.
+    /// Number of iterations in the picture.
     pub iterations: u64,
-    /// Paths that left a light.
+    /// Photon paths emitted.
     pub photons_emitted: u64,
-    /// Rays of all kinds.
+    /// Rays of all kinds, shadow rays included.
     pub rays: u64,
-    /// Contributions that were not finite and were left out.
+    /// Contributions left out of the film because they were not finite.
     pub dropped_samples: u64,
-    /// Since the first iteration began, pauses left out.
+    /// Rendering time from the first iteration on, without pauses, seconds.
     pub seconds: f64,
-    /// Paths that left a light in a second.
+    /// Photon paths emitted per second.
     pub photons_per_second: f64,
-    /// Of the density estimate at the middle of the scene, scene units.
+    /// Mean radius of density estimates at the middle of the scene, scene units.
     pub radius: f64,
-    /// Estimated RMSE over the mean; `None` as long as there is no estimate.
+    /// Estimated RMSE over the mean of the picture; `None` before there is an estimate.
     pub error_estimate: Option<f64>,
-    /// Wall-clock time by pass.
+    /// Wall-clock time of each pass.
     pub passes: PassSeconds,
-    /// Everything that was counted.
+    /// All work counters.
     pub counters: Counters,
 }
 
-/// Wall-clock seconds by pass, over all iterations. Camera and gather, which alternate, have each thread's part of the
-/// seconds that all threads spent on them.
+/// Wall-clock seconds of each pass, over all iterations. The camera and gather passes alternate on each thread; their time is the sum
+/// over the threads divided by the number of threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassSeconds {
-    /// Trees, textures and the plan, before the first iteration.
+    /// Building trees, reading textures and planning, before the first iteration.
     pub prepare: f64,
-    /// Paths from the camera.
+    /// Camera pass.
     pub camera: f64,
-    /// Paths from the lights.
+    /// Photon passes.
     pub photons: f64,
-    /// Building photon maps.
+    /// Photon map construction.
     pub map: f64,
-    /// Density estimates.
+    /// Gather pass.
     pub gather: f64,
-    /// Adding to the film.
+    /// Commit to the film, and refinement of the plan.
     pub commit: f64,
 }
 

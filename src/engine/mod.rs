@@ -1,19 +1,36 @@
-//! The worker that turns scenes into frames: commands in, frames out; cancel, restart, pause.
+//! The engine that turns scenes into frames: commands in, frames out; cancel, restart, pause.
 //!
-//! [`Session`] renders one scene, iteration by iteration, on the caller's thread; [`Engine`] runs sessions on a thread of
-//! its own, the newest scene at any time, and begins each with a quick draft.
+//! [`Session`] renders one scene, iteration by iteration, on the caller's thread. [`Engine`] runs sessions on a thread of its own, always
+//! for the newest scene, and begins each with a quick draft.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `messages` | commands, status, settings |
+//! | `frame` | a picture and its statistics |
+//! | `convergence_rates` | how fast the noise of stratified samples falls |
+//! | `film_sums` | sums over iterations, and the error estimate |
+//! | `iteration` | one iteration: the main loop of the algorithm |
+//! | `session` | the rendering of one scene |
+//! | `shared` | the state that the caller and the worker share |
+//! | `draft_pace` | how coarse drafts are |
+//! | `worker` | the worker thread |
+//! | `handle` | the engine as the caller sees it |
 
 mod convergence_rates;
+mod draft_pace;
 mod film_sums;
 mod frame;
+mod handle;
 mod iteration;
+mod messages;
 mod session;
 mod shared;
 mod worker;
 
 pub use film_sums::FilmSums;
 pub use frame::{Frame, PassSeconds, PlanSummary, Stats};
+pub use handle::Engine;
+pub use messages::{Command, EngineError, EngineSettings, Status};
 pub use session::{Session, SessionError};
-pub use worker::{Command, Engine, EngineError, EngineSettings, Status};
 
 pub use crate::transport::{Counters, PlanItem, PlanNote};

@@ -1,3 +1,5 @@
+//! The rendering of one scene.
+
 use super::film_sums::FilmSums;
 use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
 use super::iteration::{Iteration, render_iteration};
@@ -9,41 +11,40 @@ use std::sync::Arc;
 use std::time::Instant;
 use thiserror::Error;
 
-/// Why a scene can't be rendered.
+/// Why a scene cannot be rendered.
 #[derive(Debug, Error)]
 pub enum SessionError {
-    /// A part of the scene is missing or damaged.
+    /// A file of the scene is missing or damaged.
     #[error(transparent)]
     Prepare(#[from] PrepareError),
-    /// The operating system gave no threads.
-    #[error("no threads to render with: {0}")]
+    /// The operating system denied the threads.
+    #[error("the system gave no threads to render with: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    /// There is not enough memory for the film.
-    #[error("a picture of {width} x {height} pixels takes about {} MB of memory, more than there is", needed >> 20)]
+    /// The memory does not suffice for the film.
+    #[error("a picture of {width} x {height} pixels takes about {} MB of memory, more than is free", needed >> 20)]
     Memory {
-        /// Pixels in a row.
+        /// Width of the film, pixels.
         width: u32,
-        /// Rows.
+        /// Height of the film, pixels.
         height: u32,
-        /// Bytes.
+        /// Memory needed, bytes.
         needed: u64,
     },
 }
 
-/// Bytes for each pixel at the busiest moment: the sums, what was measured, an iteration with lobes that pixels share, a frame and
-/// what is written to a file.
+/// Most memory for each pixel, bytes: film sums, statistics, an iteration with lobe samples, a frame and the encoded file.
 const BYTES_PER_PIXEL: u64 = 400;
 
-/// Whether there is memory for the film; asked before, because a program that gets none in between is ended.
+/// Checks the memory for the film beforehand: the system ends a program that runs out of memory.
 fn check_memory(camera: &Camera) -> Result<(), SessionError> {
     let needed = camera.pixel_count() as u64 * BYTES_PER_PIXEL;
     let mut probe = Vec::<u8>::new();
-    let there = usize::try_from(needed).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
+    let is_free = usize::try_from(needed).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
     let (width, height) = (camera.width, camera.height);
-    there.then_some(()).ok_or(SessionError::Memory { width, height, needed })
+    is_free.then_some(()).ok_or(SessionError::Memory { width, height, needed })
 }
 
-/// The rendering of one scene, on the caller's thread and a pool's.
+/// The rendering of one scene, on the caller's thread and its pool.
 pub struct Session {
     world: World,
     plan: Plan,
@@ -58,8 +59,12 @@ pub struct Session {
 }
 
 impl Session {
-    /// Prepares a scene and makes its plan; what a previous session has in common with it is not prepared again.
-    /// To be called inside the thread pool that is to do the work.
+    /// Prepares a scene and its plan; parts that a previous session's scene has in common are reused. Call this inside the thread pool
+    /// that is to do the work.
+    ///
+    /// # Errors
+    ///
+    /// When a file of the scene cannot be read, and when the memory does not suffice for the film.
     pub fn prepare(file: &SceneFile, seed: u64, previous: Option<&Self>) -> Result<Self, SessionError> {
         let start = Instant::now();
         let world = prepare(&file.scene, &file.location, previous.map(|session| &session.world))?;
@@ -81,7 +86,7 @@ impl Session {
         })
     }
 
-    /// The same for one component of the light alone, if one is given. To be called before the first iteration.
+    /// Restricts the session to one component of the light, if one is given. Call this before the first iteration.
     pub fn only(mut self, component: Option<Component>) -> Self {
         if let Some(component) = component {
             self.plan = self.plan.only(component);
@@ -90,12 +95,12 @@ impl Session {
         self
     }
 
-    /// What is rendered and what is skipped.
+    /// The decisions of the plan.
     pub fn plan(&self) -> &Arc<PlanSummary> {
         &self.summary
     }
 
-    /// Renders the next iteration and adds it to the film; `None`, and nothing added, when cancelled.
+    /// Renders the next iteration and commits it to the film; `None` when cancelled, which leaves the film as it is.
     pub fn advance(&mut self, cancel: Cancel) -> Option<()> {
         let start = Instant::now();
         let number = self.film.iterations() + 1;
@@ -125,18 +130,17 @@ impl Session {
         }
     }
 
-    /// Iterations in the film.
+    /// Number of iterations in the film.
     pub fn iterations(&self) -> u64 {
         self.film.iterations()
     }
 
-    /// Whether the estimate of the error is known, and no more than this. A black picture never has an estimate, and no error
-    /// either.
+    /// Whether the estimated error (RMSE over the mean) is known and at most this. A black picture has no error.
     pub fn reaches(&self, error: f64) -> bool {
         self.may_estimate() && self.error_estimate().is_none_or(|estimate| estimate <= error)
     }
 
-    /// Whether there are enough iterations to estimate the error.
+    /// Whether the iterations suffice to estimate the error.
     fn may_estimate(&self) -> bool {
         self.iterations() >= FilmSums::ESTIMATED_FROM && self.plan.knows_bias(self.iterations())
     }
@@ -148,12 +152,12 @@ impl Session {
         self.film.error_estimate(self.statistics.as_ref().map_or(0.0, FilmStatistics::squared_bias))
     }
 
-    /// Seconds that iterations took.
+    /// Rendering time of all iterations, seconds.
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
 
-    /// The sums of the iterations so far.
+    /// The sums over all iterations.
     pub fn film(&self) -> &FilmSums {
         &self.film
     }
@@ -164,7 +168,7 @@ impl Session {
         self.frame_of(generation, image, self.film.iterations(), self.stats())
     }
 
-    /// A quick picture of every `coarseness`-th pixel each way; leaves the film as it is. `None` when cancelled.
+    /// A quick picture with every `coarseness`-th pixel each way; `None` when cancelled. The film stays as it is.
     pub fn draft(&self, generation: u64, coarseness: u32, cancel: Cancel) -> Option<Frame> {
         let start = Instant::now();
         let plan = self.plan.draft(coarseness);
@@ -177,7 +181,7 @@ impl Session {
         Some(Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) })
     }
 
-    /// How the picture came about so far.
+    /// Statistics of the rendering so far.
     pub fn stats(&self) -> Stats {
         let distance = self.world.camera.position.distance(self.world.center);
         Stats {

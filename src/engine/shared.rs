@@ -1,25 +1,31 @@
+//! The state that the caller and the worker share.
+
 use super::frame::Frame;
-use super::worker::Status;
+use super::messages::Status;
 use crate::scene::SceneFile;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What the caller wants next; the newest scene replaces one that was not begun.
+/// The caller's newest commands, together.
 #[derive(Debug, Default)]
-pub(super) struct Wanted {
+pub(super) struct Request {
+    /// The newest scene and its generation, until the worker takes it.
     pub(super) scene: Option<(u64, Arc<SceneFile>)>,
-    /// Begin the present scene again, under this generation.
+    /// The generation under which to restart the present scene, until the worker takes it.
     pub(super) restart: Option<u64>,
+    /// Whether to pause.
     pub(super) paused: bool,
-    /// Of the error estimate, below which there is nothing left to do.
+    /// Estimated error at which to rest.
     pub(super) target: Option<f64>,
+    /// Whether to end the thread.
     pub(super) quit: bool,
 }
 
-/// What both sides of the engine touch.
+/// The state that the caller and the worker share.
 pub(super) struct Shared {
+    /// Generation of the newest scene.
     pub(super) generation: AtomicU64,
-    wanted: Mutex<Wanted>,
+    request: Mutex<Request>,
     newest: Mutex<Option<Arc<Frame>>>,
     status: Mutex<Status>,
     wake_caller: Box<dyn Fn() + Send + Sync>,
@@ -29,18 +35,19 @@ impl Shared {
     pub(super) fn new(wake_caller: impl Fn() + Send + Sync + 'static) -> Self {
         Self {
             generation: AtomicU64::new(0),
-            wanted: Mutex::default(),
+            request: Mutex::default(),
             newest: Mutex::default(),
             status: Mutex::new(Status::Idle),
             wake_caller: Box::new(wake_caller),
         }
     }
 
-    pub(super) fn wanted(&self) -> MutexGuard<'_, Wanted> {
-        lock(&self.wanted)
+    /// The caller's newest commands, locked.
+    pub(super) fn request(&self) -> MutexGuard<'_, Request> {
+        lock(&self.request)
     }
 
-    /// Whether a scene newer than this was sent.
+    /// Whether a scene newer than this generation was sent.
     pub(super) fn is_outdated(&self, generation: u64) -> bool {
         self.generation.load(Ordering::Acquire) != generation
     }
@@ -68,7 +75,7 @@ impl Shared {
     }
 }
 
-/// The lock, also after a panic elsewhere: each holder leaves whole values behind.
+/// Locks, even after a panic of another holder: every holder leaves whole values behind.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,5 +1,8 @@
 use super::{Camera, Film, Light, Material, Object, Render, Texture};
 
+/// The version of the scene format that the program reads and writes.
+pub(super) const VERSION: u32 = 1;
+
 /// A scene as the user describes it.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Scene {

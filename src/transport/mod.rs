@@ -18,7 +18,7 @@
 //! A pass is a function of the world, the plan, the seed and the number of the iteration; it returns what it found. The rooms stand in
 //! the order in which light meets them; each uses only rooms above it:
 //!
-//! | room | holds |
+//! | file | holds |
 //! |---|---|
 //! | `pass`, `counters` | what every pass takes and counts |
 //! | `points/` | scattering at a point of a surface |

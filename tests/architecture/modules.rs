@@ -78,10 +78,23 @@ impl Modules {
                 _ => {
                     module.items.extend(name.map(Ident::to_string));
                     module.visit_item(item);
+                    module.add_wrapped(item);
                 }
             }
         }
         self.0.insert(path.to_vec(), module);
+    }
+}
+
+impl Module {
+    /// Adds the items that a macro such as `simd_dispatch!` wraps.
+    fn add_wrapped(&mut self, item: &Item) {
+        let Item::Macro(wrapper) = item else { return };
+        let Ok(wrapped) = syn::parse2::<syn::File>(wrapper.mac.tokens.clone()) else { return };
+        for item in &wrapped.items {
+            self.items.extend(name_and_attributes(item).0.map(Ident::to_string));
+            self.visit_item(item);
+        }
     }
 }
 

@@ -8,7 +8,6 @@
 //! | `chosen_path` | uses a chosen path: open, save, export, add |
 //! | `apply` | the one place that carries out commands |
 //! | `layout` | draws the content, then carries out the commands that its parts push |
-//! | `tests` | tests of the editor through its widgets, without an engine |
 
 mod apply;
 mod chosen_path;

@@ -2,7 +2,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod` | `patchlight bench` of one scene |
 //! | `truth` | `Truth`: references and mask |
 //! | `measurement` | `Measurement`: the errors at one mark |
 //! | `median`, `slope` | medians over seeds; the power of time by which errors fall |

@@ -2,7 +2,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod` | the command |
 //! | `patches` | reads the file of patches |
 //! | `rays` | reads the table of rays |
 //! | `table_error` | `TableError`: an error with its line |

@@ -3,7 +3,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod` | [`Bvh`]: building, refitting, traversal |
 //! | `node` | `Node`: the boxes of eight children, and the intersection of rays with them |
 //! | `partition` | dividing items into eight groups |
 

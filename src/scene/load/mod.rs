@@ -2,7 +2,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod` | the steps: TOML, tables, files, validation |
 //! | `tables` | the tables of the format, each read into the type that mirrors it |
 //! | `table` | `Table`: a TOML table that reports missing and unknown keys |
 //! | `field` | `Field`: types that can be the value of a key |
@@ -17,7 +16,6 @@ use super::{LocatedProblem, Location, Problem, Scene, Shape, problem::is_within,
 use notes::Notes;
 use rayon::prelude::*;
 use std::sync::Arc;
-pub(super) use tables::VERSION;
 use toml::de::DeTable;
 
 /// The scene of a text. Reads the files that the scene names.

@@ -5,6 +5,7 @@ use super::{
     notes::Notes,
     table::Table,
 };
+use crate::scene::data::VERSION;
 use crate::{
     math::Rgb,
     scene::{
@@ -15,9 +16,6 @@ use crate::{
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
-
-/// The version of the format that this program reads and writes.
-pub(in crate::scene) const VERSION: u32 = 1;
 
 const BLACK: Color = Color::Constant(Rgb::ZERO);
 const WHITE: Color = Color::Constant(Rgb::ONE);

@@ -2,18 +2,18 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod` | the tables of a scene |
 //! | `value` | `Value`: types as TOML text; `Text`: the text so far |
 
 mod value;
 
+use super::data::VERSION;
 use super::{Bezier, Emitter, Light, Material, MaterialModel, Object, Relief, Scene, Shape, Texture, Transform};
 use value::{Text, Value, net};
 
 /// The text of a scene, which loads as the same scene. Bezier objects with a `file` have its path instead of patches.
 pub(super) fn text(scene: &Scene) -> String {
     let mut t = Text::default();
-    t.key("version", &super::load::VERSION);
+    t.key("version", &VERSION);
     t.key("name", &scene.name);
     t.table("[camera]");
     t.key("position", &scene.camera.position);

@@ -2,7 +2,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod` | [`validate`]; camera, film, render, textures |
 //! | `material` | materials |
 //! | `shape` | lights and objects |
 //! | `checks` | checks of single values, which collect the problems |

@@ -2,7 +2,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod` | the command |
 //! | `file` | reads the file of a suite |
 //! | `run` | `Run`: one scene with its reference |
 //! | `result` | `RunResult`: the medians of a run |

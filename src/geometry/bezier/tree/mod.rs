@@ -3,7 +3,6 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod` | `SubpatchTree`: cutting the patch, building the tree |
 //! | `bending` | the criterion by which a subpatch is cut again |
 //! | `paraboloid` | `Paraboloid`: a subpatch by a quadratic height field, with bounds of the error |
 //! | `subpatch8` | `Subpatch8`, a leaf: eight paraboloids, and the intersection of rays with them |

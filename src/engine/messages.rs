@@ -1,0 +1,57 @@
+//! What the caller and the engine say to each other.
+
+use crate::scene::SceneFile;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Settings of an engine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EngineSettings {
+    /// Number of threads that render; `None` for one per processor.
+    pub threads: Option<usize>,
+    /// Seed of all random numbers.
+    pub seed: u64,
+}
+
+/// Commands to the engine.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Renders this scene from now on.
+    Show(Arc<SceneFile>),
+    /// Pauses after the present iteration.
+    Pause,
+    /// Continues after a pause.
+    Resume,
+    /// Restarts the present scene.
+    Restart,
+    /// Rests once the estimated error (RMSE over the mean) is at most this; `None` renders for ever.
+    Target(Option<f64>),
+}
+
+/// What the engine is doing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Nothing: it was given no scene.
+    Idle,
+    /// Building trees, reading textures, planning.
+    Preparing,
+    /// Rendering iterations.
+    Rendering,
+    /// Paused.
+    Paused,
+    /// Resting: the estimated error reached the target.
+    Converged,
+    /// The scene cannot be rendered, for this reason; another scene may be.
+    Failed(String),
+}
+
+/// Why an engine could not start.
+#[derive(Debug, Error)]
+pub enum EngineError {
+    /// The operating system denied the threads of the pool.
+    #[error("the system gave no threads to render with: {0}")]
+    Pool(#[from] rayon::ThreadPoolBuildError),
+    /// The operating system denied the engine's thread.
+    #[error("the system gave no thread to render on: {0}")]
+    Thread(#[from] std::io::Error),
+}
