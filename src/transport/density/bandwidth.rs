@@ -83,6 +83,7 @@ impl Cells {
     }
 
     /// The cell of a pixel.
+    #[inline]
     fn at(&self, pixel: u32) -> usize {
         let (x, y) = (pixel % self.width / CELL, pixel / self.width / CELL);
         y as usize * self.columns as usize + x as usize
@@ -185,6 +186,7 @@ impl BandwidthDifferences {
     }
 
     /// Whether a pixel of a film of this size is measured in an iteration.
+    #[inline]
     pub(in crate::transport) fn includes([width, height]: [u32; 2], pixel: u32, iteration: u64) -> bool {
         let cells = Cells::new(width, height);
         schedule::measures(iteration) && cells.measured(cells.at(pixel), iteration) == pixel
@@ -254,6 +256,7 @@ impl Bandwidth {
     }
 
     /// The least factor of the caustic map near a pixel.
+    #[inline]
     pub(in crate::transport) fn least_caustic_near(&self, pixel: u32) -> f64 {
         f64::from(self.least_caustic[self.cells.at(pixel)])
     }

@@ -63,12 +63,14 @@ impl<'v> Disc<'v> {
     }
 
     /// Whether the point sees where a photon of the disc lies.
+    #[inline]
     pub(in crate::transport) fn sees(&self, photon: &Photon) -> bool {
         self.visible.is_none_or(|polygon| polygon.contains((photon.position - self.query.position).as_dvec3()))
     }
 }
 
 /// [`CosineCorrection::curvature`] of a disc.
+#[inline]
 fn curvature(world: &World, primitive: &Primitive, point: &VisiblePoint, radius: f64) -> f32 {
     match primitive {
         Primitive::Sphere(sphere) => {

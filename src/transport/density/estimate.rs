@@ -89,6 +89,7 @@ pub(in crate::transport) fn shot_noise<L: Lanes>(
 
 /// The diffuse scattering function, per steradian, for the irradiance at a point: the mean over the pixel where one estimate serves
 /// the whole pixel. With facets it does not, because each has another normal.
+#[inline]
 pub(in crate::transport) fn diffuse_scattering(point: &VisiblePoint, radius: f64) -> Rgb {
     let mean = Scattering { albedo: point.mean_albedo, ..point.scattering };
     let serves_pixel = point.facets == 0 && covers_pixel(point, radius);
@@ -96,16 +97,19 @@ pub(in crate::transport) fn diffuse_scattering(point: &VisiblePoint, radius: f64
 }
 
 /// Whether one estimate in a disc of this radius serves all points where the pixel's paths met the surface.
+#[inline]
 pub(in crate::transport) fn covers_pixel(point: &VisiblePoint, radius: f64) -> bool {
     f64::from(point.spread) <= MAX_SPREAD * radius
 }
 
 /// Whether the pixel shows any diffuse reflection at the point.
+#[inline]
 pub(in crate::transport) fn is_diffuse(point: &VisiblePoint) -> bool {
     point.scattering.albedo != Rgb::ZERO || point.mean_albedo != Rgb::ZERO
 }
 
 /// Whether the point has a Phong lobe.
+#[inline]
 pub(in crate::transport) fn is_glossy(point: &VisiblePoint) -> bool {
     matches!(point.scattering.lobe, Lobe::Phong { .. })
 }

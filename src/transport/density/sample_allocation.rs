@@ -47,6 +47,7 @@ pub struct PixelSamples {
 
 impl PixelSamples {
     /// Adds one sample.
+    #[inline]
     pub(in crate::transport) fn include(&mut self, radiance: Rgb) {
         self.count += 1;
         self.sum += radiance;
@@ -160,11 +161,13 @@ impl SampleAllocation {
     }
 
     /// Weight of the mean of a pixel's samples of an iteration, in samples of the first iterations.
+    #[inline]
     pub(in crate::transport) fn weight(&self, pixel: u32) -> f32 {
         f32::from(self.pixels[pixel as usize].weight)
     }
 
     /// Indices of a pixel's samples in an iteration, in the pixel's sequence.
+    #[inline]
     pub(in crate::transport) fn at(&self, pixel: u32, iteration: u64) -> Range<u64> {
         let PixelAllocation { first, count, .. } = self.pixels[pixel as usize];
         let start = first + (iteration - self.first_iteration) * u64::from(count);

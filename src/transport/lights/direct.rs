@@ -36,6 +36,7 @@ const NEAREST: f64 = 1e-4;
 
 impl DirectLight<'_> {
     /// Radiance from a vertex towards `wo` of light that comes straight from the lights, times the MIS weight of camera paths.
+    #[inline]
     pub(in crate::transport) fn radiance(
         &self,
         vertex: &Vertex,
@@ -88,6 +89,7 @@ impl DirectLight<'_> {
 
     /// The MIS weight of camera paths, 0 to 1, for light that a vertex scatters from a point of a light to the lobe that shows the vertex; 1
     /// without a lobe.
+    #[inline]
     pub(in crate::transport) fn camera_weight(&self, light: usize, light_point: DVec3, seen: Option<MisVertex>) -> f64 {
         let Some(MisVertex { lobe, position, scattered }) = seen else { return 1.0 };
         let density = scattered * emission::density(&self.world.lights[light], light_point, position);

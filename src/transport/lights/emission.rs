@@ -26,6 +26,7 @@ pub(super) struct Origin {
 }
 
 /// Samples a point of a light, evenly over its area. Only area lights draw numbers.
+#[inline]
 pub(super) fn sample_origin(light: &Light, sampler: &mut Sampler) -> Origin {
     match light {
         Light::Point { position, intensity } => Origin { position: *position, normal: None, strength: *intensity },
@@ -47,6 +48,7 @@ pub(super) fn sample_origin(light: &Light, sampler: &mut Sampler) -> Origin {
 }
 
 /// Samples the first ray of a path in proportion to the light's emission.
+#[inline]
 pub(in crate::transport) fn emit(light: &Light, sampler: &mut Sampler) -> Emission {
     let Origin { position, normal, strength } = sample_origin(light, sampler);
     let u = sampler.next_2d();
@@ -63,6 +65,7 @@ pub(in crate::transport) fn emit(light: &Light, sampler: &mut Sampler) -> Emissi
 }
 
 /// Density of the paths of [`emit`] that leave this point of a light, per area across them at `point`, scene units.
+#[inline]
 pub(in crate::transport) fn density(light: &Light, light_point: DVec3, point: DVec3) -> f64 {
     let offset = point - light_point;
     let distance_squared = offset.length_squared();

@@ -55,6 +55,7 @@ impl LightSampler {
     }
 
     /// Whether there are more lights than a point samples.
+    #[inline]
     pub(in crate::transport) fn draws(&self) -> bool {
         self.count() > MOST_SAMPLED
     }
@@ -64,6 +65,7 @@ impl LightSampler {
     ///
     /// The draw is systematic resampling: equal steps from the random number `u` through the sum of the expected contributions, so
     /// that a light that contributes more than a step is always sampled.
+    #[inline]
     pub(in crate::transport) fn sample(&self, vertex: &Vertex, u: f64, mut sample: impl FnMut(usize, f32)) {
         let count = self.count();
         if !self.draws() {

@@ -74,6 +74,7 @@ impl ProjectionMap {
 
     /// Samples a direction; returns it with its density per steradian. Monotonic in both numbers, so that stratified numbers give
     /// stratified directions.
+    #[inline]
     fn sample(&self, u: DVec2) -> (DVec3, f64) {
         let (row, y, row_probability) = invert(&self.rows, u.y);
         let (column, x, cell_probability) = invert(&self.cells[row], u.x);
@@ -83,6 +84,7 @@ impl ProjectionMap {
     }
 
     /// Samples the first ray of a path towards specular surfaces; `None` where the light does not shine in the sampled direction.
+    #[inline]
     pub(in crate::transport) fn emit(&self, light: &Light, sampler: &mut Sampler) -> Option<Emission> {
         let Origin { position, normal, strength } = emission::sample_origin(light, sampler);
         let (direction, pdf) = self.sample(sampler.next_2d());
@@ -98,6 +100,7 @@ impl ProjectionMap {
 
 /// Inverts a cumulative distribution: the index of the interval that holds `x`, the position of `x` in it (0 to 1), and its
 /// probability.
+#[inline]
 fn invert(cumulative: &[f64], x: f64) -> (usize, f64, f64) {
     let index = cumulative.partition_point(|&c| c <= x).clamp(1, cumulative.len() - 1) - 1;
     let probability = cumulative[index + 1] - cumulative[index];

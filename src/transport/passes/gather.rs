@@ -13,7 +13,7 @@ use crate::transport::density::visibility_polygon::{VisibilityPolygon, Visibilit
 use crate::transport::pass::Cancel;
 use crate::transport::photons::photon_map::Stack;
 use crate::transport::photons::{MapKind, Maps};
-use crate::transport::plan::Plan;
+use crate::transport::plan::{IterationRadii, Plan};
 use crate::transport::points::{Facet, VisiblePoint, bsdf};
 use crate::world::World;
 use arrayvec::ArrayVec;
@@ -40,7 +40,8 @@ pub fn gather(
     cancel: Cancel,
 ) -> Option<(Vec<Gathered>, Counters)> {
     let points = seen.visible_points.as_slice();
-    let gatherer = Gatherer { world, plan, maps, facets: &seen.facets, iteration };
+    let gatherer =
+        Gatherer { world, plan, maps, facets: &seen.facets, iteration, radii: plan.radii_of(world, iteration) };
     let mut stack = Stack::new();
     let interleaving = gatherer.interleaving(points);
     let mut counters = Counters { global_gathers: interleaving.gathering.len() as u64, ..Counters::default() };
@@ -103,6 +104,7 @@ struct Gatherer<'a> {
     maps: &'a Maps,
     facets: &'a [Facet],
     iteration: u64,
+    radii: IterationRadii<'a>,
 }
 
 impl Gatherer<'_> {
@@ -111,7 +113,7 @@ impl Gatherer<'_> {
             return Interleaving::none(points.len());
         }
         Interleaving::new(self.plan.interleaved_grid(self.iteration), points, |point| {
-            self.radius(MapKind::Global, point)
+            self.radii.at(MapKind::Global, point)
         })
     }
 
@@ -121,7 +123,7 @@ impl Gatherer<'_> {
         let mut sum = Rgb::ZERO;
         for kind in MapKind::ALL {
             if self.is_shared(kind) && self.needs(kind, point) {
-                let radius = self.radius(kind, point);
+                let radius = self.radii.at(kind, point);
                 // No closure: it would not be compiled with the vector instructions.
                 let Some(mut disc) = self.disc(point, None, radius) else { continue };
                 // Neighbours have another relief.
@@ -150,7 +152,7 @@ impl Gatherer<'_> {
             .filter(|kind| self.needs(*kind, point))
             .map(|kind| (kind, self.shows(kind, point)))
             .filter(|(_, shows)| compares || *shows)
-            .map(|(kind, shows)| (kind, shows, self.radius(kind, point)))
+            .map(|(kind, shows)| (kind, shows, self.radii.at(kind, point)))
             .collect();
         let largest = radii.iter().fold(0.0, |largest, (_, _, radius)| radius.max(largest));
         let polygon = self.visibility_polygon(point, largest * if compares { WIDER } else { 1.0 }, counters);
@@ -210,11 +212,6 @@ impl Gatherer<'_> {
         kind != MapKind::Caustic
             || !point.seen_directly
             || self.plan.gathers_visible_caustics(primitive(), point.pixel, self.iteration)
-    }
-
-    /// See [`Plan::radius`].
-    fn radius(&self, kind: MapKind, point: &VisiblePoint) -> f64 {
-        self.plan.radius(self.world, kind, point, self.iteration)
     }
 
     /// What a point sees of its surface within the reach (scene units), where an object stands on the surface.

@@ -20,6 +20,7 @@ pub struct Photon {
 
 impl Photon {
     /// The photon that a light path leaves at a vertex after so many scattering events.
+    #[inline]
     pub(in crate::transport) fn arrived(world: &World, vertex: &Vertex, flux: Rgb, bounces: u32) -> Self {
         Self {
             position: (vertex.point.position - world.center).as_vec3(),
@@ -36,6 +37,7 @@ impl Photon {
 pub(in crate::transport) const MAX_TAG_BOUNCES: u32 = 255;
 
 /// A number that orders photons by object, then side, then scattering events since the light.
+#[inline]
 pub(in crate::transport) fn tag(object: u32, front: bool, bounces: u32) -> u32 {
     (object << 1 | u32::from(front)) << 8 | bounces.min(MAX_TAG_BOUNCES)
 }

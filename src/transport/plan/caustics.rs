@@ -80,6 +80,7 @@ fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {
 impl Plan {
     /// Whether a pixel gathers directly seen caustics from the map in an iteration; otherwise photons are splatted. On spheres so small
     /// that only small discs lie flat on them, photons are always splatted.
+    #[inline]
     pub(in crate::transport) fn gathers_visible_caustics(
         &self,
         primitive: &Primitive,

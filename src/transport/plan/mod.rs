@@ -36,4 +36,5 @@ pub(in crate::transport) use interleaved_grid::InterleavedGrid;
 pub use notes::{PlanItem, PlanNote};
 pub use only::Component;
 pub use radii::Radii;
+pub(in crate::transport) use radius::IterationRadii;
 pub use render_plan::{CausticPlan, Plan};

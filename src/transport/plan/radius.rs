@@ -4,6 +4,7 @@
 //! once measured, of the bandwidth at the pixel, and the greatest radius `L(x)` that the surface and the world allow. The limit
 //! applies before the radius shrinks, so that it shrinks everywhere: otherwise bias would stay.
 
+use super::radii::Radii;
 use super::render_plan::Plan;
 use crate::geometry::Primitive;
 use crate::transport::density::bandwidth::{self, WIDER};
@@ -13,7 +14,7 @@ use crate::transport::points::glossy_mis::lobe_width;
 use crate::transport::points::{Clearance, VisiblePoint};
 use crate::world::World;
 
-/// Greatest radius, except for the least ones of [`Radii`](super::Radii), over the distance to the next object: its light changes
+/// Greatest radius, except for the least ones of [`Radii`], over the distance to the next object: its light changes
 /// within a fraction of the distance \[Ward88\].
 const MAX_CLEARANCE_FRACTION: f64 = 0.5;
 /// Least radius in a Phong lobe over the radius without one: the lobe blurs what it shows, so discs may be noisier. Measured: it takes
@@ -22,19 +23,24 @@ const LEAST_LOBE_FRACTION: f64 = 0.3;
 /// Greatest radius on a sphere over the sphere's radius: the disc must stay nearly flat.
 pub(super) const MAX_SPHERE_FRACTION: f64 = 0.32;
 
-impl Plan {
-    /// The radius of a point's disc in an iteration for photons of a map, scene units.
-    pub(in crate::transport) fn radius(
-        &self,
-        world: &World,
-        kind: MapKind,
-        point: &VisiblePoint,
-        iteration: u64,
-    ) -> f64 {
-        let primitive = &world.aggregate.primitives()[point.primitive as usize];
+/// The radii of an iteration.
+#[derive(Clone, Copy)]
+pub(in crate::transport) struct IterationRadii<'a> {
+    plan: &'a Plan,
+    world: &'a World,
+    /// The factor `s_i` of the schedule.
+    shrink: f64,
+}
+
+impl IterationRadii<'_> {
+    /// The radius of a point's disc for photons of a map, scene units.
+    #[inline]
+    pub(in crate::transport) fn at(&self, kind: MapKind, point: &VisiblePoint) -> f64 {
+        let radii = &self.plan.radii;
+        let primitive = &self.world.aggregate.primitives()[point.primitive as usize];
         let footprint = f64::from(point.footprint);
-        let factor = match &self.bandwidth {
-            None => self.shrink(iteration),
+        let factor = match &self.plan.bandwidth {
+            None => self.shrink,
             Some(bandwidth) => {
                 let measured = bandwidth.at(kind, point.pixel);
                 // A patch curves away from a wide disc, which would reach over other patches of the object.
@@ -45,33 +51,45 @@ impl Plan {
             Primitive::Sphere(sphere) => MAX_SPHERE_FRACTION * sphere.radius,
             _ => f64::MAX,
         };
-        let unshrunk = self.unshrunk_radius(kind, point) * factor.max(1.0);
-        let radius = unshrunk.min(self.radii.largest * world.radius).min(limit) * factor.min(1.0);
-        if kind == MapKind::Caustic { self.limited_caustic_radius(radius, footprint, point.clearance) } else { radius }
+        let unshrunk = radii.unshrunk(kind, point) * factor.max(1.0);
+        let radius = unshrunk.min(radii.largest * self.world.radius).min(limit) * factor.min(1.0);
+        if kind == MapKind::Caustic { radii.limited_caustic(radius, footprint, point.clearance) } else { radius }
     }
+}
 
-    /// A radius for caustics, limited near other objects: a wider disc could reach over several of them and their shadows, and its bias
-    /// would not show their differences.
-    fn limited_caustic_radius(&self, radius: f64, footprint: f64, clearance: Clearance) -> f64 {
-        radius.min((MAX_CLEARANCE_FRACTION * clearance.any).max(self.radii.least_caustic * footprint))
-    }
-
+impl Radii {
     /// The radius after one full iteration, scene units.
-    fn unshrunk_radius(&self, kind: MapKind, point: &VisiblePoint) -> f64 {
+    #[inline]
+    fn unshrunk(&self, kind: MapKind, point: &VisiblePoint) -> f64 {
         let footprint = f64::from(point.footprint);
         match kind {
-            MapKind::Caustic => self.radii.caustic * footprint,
-            MapKind::Global => in_lobe(self.global_radius(footprint, point.clearance), point.blur),
-            MapKind::IndirectCaustic => self.radii.indirect_caustic * footprint,
-            MapKind::Glossy => in_lobe(self.radii.glossy * footprint, point.blur),
+            MapKind::Caustic => self.caustic * footprint,
+            MapKind::Global => in_lobe(self.unshrunk_global(footprint, point.clearance), point.blur),
+            MapKind::IndirectCaustic => self.indirect_caustic * footprint,
+            MapKind::Glossy => in_lobe(self.glossy * footprint, point.blur),
         }
     }
 
     /// The radius for interreflection after one full iteration, scene units, for this footprint and these distances to other objects.
-    fn global_radius(&self, footprint: f64, clearance: Clearance) -> f64 {
-        let (least, most) = (self.radii.least_global * footprint, self.radii.global * footprint);
+    #[inline]
+    fn unshrunk_global(&self, footprint: f64, clearance: Clearance) -> f64 {
+        let (least, most) = (self.least_global * footprint, self.global * footprint);
         let by_any = (MAX_CLEARANCE_FRACTION * clearance.any).clamp(least, most);
-        by_any.min((MAX_CLEARANCE_FRACTION * clearance.standing).max(self.radii.least_standing * footprint))
+        by_any.min((MAX_CLEARANCE_FRACTION * clearance.standing).max(self.least_standing * footprint))
+    }
+
+    /// A radius for caustics, limited near other objects: a wider disc could reach over several of them and their shadows, and its bias
+    /// would not show their differences.
+    #[inline]
+    fn limited_caustic(&self, radius: f64, footprint: f64, clearance: Clearance) -> f64 {
+        radius.min((MAX_CLEARANCE_FRACTION * clearance.any).max(self.least_caustic * footprint))
+    }
+}
+
+impl Plan {
+    /// The radii of an iteration in this world.
+    pub(in crate::transport) fn radii_of<'a>(&'a self, world: &'a World, iteration: u64) -> IterationRadii<'a> {
+        IterationRadii { plan: self, world, shrink: self.shrink(iteration) }
     }
 
     /// The factor of radii in an iteration before the first refinement.
@@ -127,6 +145,7 @@ impl Plan {
 }
 
 /// A radius where a Phong lobe blurs what the camera sees over this distance, both scene units.
+#[inline]
 fn in_lobe(radius: f64, blur: f32) -> f64 {
     radius * (radius / (radius + f64::from(blur))).max(LEAST_LOBE_FRACTION)
 }
@@ -144,7 +163,7 @@ mod tests {
         let file = SceneFile::parse(text, Location::Unsaved).expect("the scene is valid");
         let plan = Plan::new(&prepare(&file.scene, &Location::Unsaved, None).expect("it can be prepared"));
         let radius = |wanted: f64, any: f64| {
-            plan.limited_caustic_radius(wanted, 0.01, Clearance { any, standing: f64::INFINITY })
+            plan.radii.limited_caustic(wanted, 0.01, Clearance { any, standing: f64::INFINITY })
         };
         let half = 0.5 * plan.radii.caustic * 0.01;
         assert_eq!(radius(0.04, f64::INFINITY), 0.04);

@@ -36,6 +36,7 @@ impl Plan {
     }
 
     /// Indices of the samples of an iteration in a pixel's sequence; at least one.
+    #[inline]
     pub(in crate::transport) fn camera_samples(&self, pixel: u32, iteration: u64) -> Range<u64> {
         if self.is_draft {
             return 0..1;
@@ -48,6 +49,7 @@ impl Plan {
     }
 
     /// The weight of the mean of a pixel's samples of an iteration among those of all iterations.
+    #[inline]
     pub(in crate::transport) fn samples_weight(&self, pixel: u32, iteration: u64) -> f32 {
         match &self.samples {
             Some(samples) => samples.weight(pixel),
@@ -56,6 +58,7 @@ impl Plan {
     }
 
     /// Whether an iteration measures the bandwidth difference in a pixel.
+    #[inline]
     pub(in crate::transport) fn compares_bandwidths(&self, pixel: u32, iteration: u64) -> bool {
         !self.is_draft && BandwidthDifferences::includes([self.camera.width, self.camera.height], pixel, iteration)
     }

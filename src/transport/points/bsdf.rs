@@ -16,6 +16,7 @@ pub struct Fresnel {
 
 /// Fresnel's equations for light that arrives at the angle with this cosine (0 to 1); `eta` is the index of refraction behind the
 /// interface over the index in front of it.
+#[inline]
 pub fn fresnel(cos: f64, eta: f64) -> Fresnel {
     let cos = cos.clamp(0.0, 1.0);
     if eta == 1.0 {
@@ -32,11 +33,13 @@ pub fn fresnel(cos: f64, eta: f64) -> Fresnel {
 }
 
 /// The mirror image of `wo` about a unit normal, of unit length.
+#[inline]
 pub(in crate::transport) fn reflect(wo: DVec3, normal: DVec3) -> DVec3 {
     2.0 * wo.dot(normal) * normal - wo
 }
 
 /// The refracted direction, of unit length, for `wo` on the side of the normal.
+#[inline]
 pub(in crate::transport) fn refract(wo: DVec3, normal: DVec3, eta: f64, cos_transmitted: f64) -> DVec3 {
     let cos = wo.dot(normal);
     ((cos / eta - cos_transmitted) * normal - wo / eta).normalize()
@@ -44,6 +47,7 @@ pub(in crate::transport) fn refract(wo: DVec3, normal: DVec3, eta: f64, cos_tran
 
 /// The mirror image of `wo` about a shading normal, bent back to the side of `n_side` where the shading normal would send it into
 /// the surface.
+#[inline]
 pub(in crate::transport) fn reflect_above(wo: DVec3, n_shade: DVec3, n_side: DVec3) -> DVec3 {
     let wi = reflect(wo, n_shade);
     let depth = wi.dot(n_side);
@@ -51,12 +55,14 @@ pub(in crate::transport) fn reflect_above(wo: DVec3, n_shade: DVec3, n_side: DVe
 }
 
 /// The diffuse part of the scattering function, `albedo / pi`, per steradian.
+#[inline]
 pub(in crate::transport) fn eval_diffuse(scattering: &Scattering) -> Rgb {
     scattering.albedo * (1.0 / PI) as f32
 }
 
 /// The Phong lobe of the scattering function for two directions, per steradian:
 /// `specular (n + 2) / 2 pi cos^n` of the angle to the mirror direction \[LafortuneWillems94\].
+#[inline]
 pub(in crate::transport) fn eval_glossy(scattering: &Scattering, n_shade: DVec3, wo: DVec3, wi: DVec3) -> Rgb {
     let Lobe::Phong { specular, exponent } = scattering.lobe else { return Rgb::ZERO };
     let cos = reflect(wo, n_shade).dot(wi);
@@ -82,6 +88,7 @@ impl GlossyLobe {
     }
 
     /// The value for `wi`, per steradian: see [`eval_glossy`].
+    #[inline]
     pub(in crate::transport) fn eval(&self, wi: Vec3) -> Rgb {
         let cos = self.mirrored.dot(wi).min(1.0);
         if cos > 0.0 { self.peak * cos.powf(self.exponent) } else { Rgb::ZERO }
@@ -94,6 +101,7 @@ pub(in crate::transport) fn eval(scattering: &Scattering, n_shade: DVec3, wo: DV
 }
 
 /// Density with which [`sample_glossy`] chooses `wi`, per steradian.
+#[inline]
 pub(in crate::transport) fn pdf_glossy(scattering: &Scattering, n_shade: DVec3, wo: DVec3, wi: DVec3) -> f64 {
     let Lobe::Phong { exponent, .. } = scattering.lobe else { return 0.0 };
     warp::pdf_cosine_power(reflect(wo, n_shade).dot(wi), exponent)
@@ -101,6 +109,7 @@ pub(in crate::transport) fn pdf_glossy(scattering: &Scattering, n_shade: DVec3, 
 
 /// Samples a direction `wi` of the Phong lobe; returns it with the weight `f cos / pdf`. `None` where the surface has no lobe, and
 /// for samples below the surface.
+#[inline]
 pub(in crate::transport) fn sample_glossy(
     scattering: &Scattering,
     n_shade: DVec3,
@@ -121,6 +130,7 @@ pub(in crate::transport) const MAX_SHADING_FACTOR: f64 = 8.0;
 
 /// The correction for shading normals of light that travels from a light: `|cos_i'| |cos_o| / (|cos_i| |cos_o'|)`,
 /// shading cosines primed \[Veach97, 5.3.2\]; 0 where a direction is on different sides of the two normals.
+#[inline]
 pub(in crate::transport) fn shading_factor(wi: DVec3, wo: DVec3, n_side: DVec3, n_shade: DVec3) -> f64 {
     if n_side == n_shade {
         return 1.0;
@@ -133,6 +143,7 @@ pub(in crate::transport) fn shading_factor(wi: DVec3, wo: DVec3, n_side: DVec3, 
 }
 
 /// Whether a surface has a diffuse or glossy part, besides mirrors and glass.
+#[inline]
 pub(in crate::transport) fn scatters(scattering: &Scattering) -> bool {
     scattering.albedo != Rgb::ZERO || matches!(scattering.lobe, Lobe::Phong { .. })
 }

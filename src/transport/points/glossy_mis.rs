@@ -73,6 +73,7 @@ impl GlossyMis {
     }
 
     /// Whether photons get any weight.
+    #[inline]
     pub(in crate::transport) fn uses_photons(&self) -> bool {
         !self.paths.is_empty()
     }
@@ -109,6 +110,7 @@ impl GlossyMis {
     ///
     /// The geometric factors between that vertex and the lobe, over mirrors and through glass, are the same for both techniques and
     /// cancel.
+    #[inline]
     pub(in crate::transport) fn camera_weight(&self, light: usize, density: f64, lobe: ViewingLobe) -> f64 {
         let photons = self.paths.get(light).map_or(0.0, |&paths| paths as f64 * density);
         if photons > lobe.density { lobe.density / photons } else { 1.0 }
@@ -136,6 +138,7 @@ impl World {
 
 impl ViewingLobe {
     /// About the distance, scene units, over which the lobe blurs what a camera path of this length sees through it.
+    #[inline]
     pub(in crate::transport) fn blur(&self, length: f64) -> f64 {
         self.width * (length - self.length)
     }

@@ -23,6 +23,7 @@ impl Media {
 
     /// Index of refraction behind an interface of this glass over the index in front of it; `entering` where the path comes from
     /// the outside.
+    #[inline]
     pub(in crate::transport) fn eta(&self, world: &World, material: u32, entering: bool) -> f64 {
         let glass = world.materials[material as usize].ior();
         let without = self.without(material);
@@ -30,6 +31,7 @@ impl Media {
     }
 
     /// The media behind an interface of this glass.
+    #[inline]
     pub(in crate::transport) fn crossed(&self, material: u32, entering: bool) -> Self {
         if !entering {
             return self.without(material);
@@ -49,6 +51,7 @@ impl Media {
     }
 
     /// Transmittance of the innermost body over this distance (scene units), by the Beer-Lambert law.
+    #[inline]
     pub(in crate::transport) fn transmittance(&self, world: &World, distance: f64) -> Rgb {
         let absorption = self.inside.last().and_then(|&m| world.materials[m as usize].absorption());
         absorption.map_or(Rgb::ONE, |a| (-a * distance as f32).exp())

@@ -39,21 +39,25 @@ impl Vertex {
     }
 
     /// The material, whose textures gave the scattering function.
+    #[inline]
     pub(in crate::transport) fn material<'w>(&self, world: &'w World) -> &'w Material {
         &world.materials[self.material as usize]
     }
 
     /// Whether the surface has a diffuse or glossy part here.
+    #[inline]
     pub(in crate::transport) fn scatters(&self) -> bool {
         bsdf::scatters(&self.scattering)
     }
 
     /// The scattering function towards `wo` for light from `wi`, per steradian, without mirrors and glass.
+    #[inline]
     pub(in crate::transport) fn eval(&self, wi: DVec3) -> Rgb {
         bsdf::eval(&self.scattering, self.n_shade, self.wo, wi)
     }
 
     /// The ray that leaves the vertex in this direction.
+    #[inline]
     pub(in crate::transport) fn ray(&self, world: &World, direction: DVec3) -> Ray {
         Ray::new(world.leave(&self.point, direction), direction)
     }

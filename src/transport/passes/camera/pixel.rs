@@ -22,6 +22,7 @@ impl Pixel {
     }
 
     /// Begins another pixel.
+    #[inline]
     pub(super) fn begin(&mut self, index: u32) {
         self.index = index;
         self.facets.clear();
@@ -29,6 +30,7 @@ impl Pixel {
     }
 
     /// Adds the first vertex of a path.
+    #[inline]
     pub(super) fn add(&mut self, facet: Facet, has_relief: bool) {
         self.facets.push(facet);
         self.has_relief |= has_relief;
@@ -36,6 +38,7 @@ impl Pixel {
 
     /// Completes the visible points of the pixel, from `first` on, and adds their facets. Where all paths met one surface first, its albedo
     /// and relief at all of their first vertices count: those of one point in the pixel would be noise.
+    #[inline]
     pub(super) fn complete(
         &self,
         points: &mut Vec<VisiblePoint>,

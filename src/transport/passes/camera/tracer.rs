@@ -67,6 +67,7 @@ impl<'a> CameraTracer<'a> {
     }
 
     /// Traces a path whose first ray met `hit`; returns the radiance of emission and direct light, and leaves visible points.
+    #[inline]
     pub(super) fn trace(&mut self, pixel: &mut Pixel, ray: Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Rgb {
         let first = Branch {
             ray,
