@@ -45,14 +45,14 @@ pub(super) struct RenderSettings {
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) seed: u64,
     /// Render only this component of the light; the three components add up to the image
-    #[arg(long, value_name = "PART")]
-    pub(super) only: Option<Part>,
+    #[arg(long, value_name = "COMPONENT")]
+    pub(super) only: Option<ComponentName>,
 }
 
 /// A component of the light on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Part {
+pub(super) enum ComponentName {
     /// Visible lights, direct illumination, and most of its glossy reflections
     Direct,
     /// Light that mirrors and glass focus on surfaces
@@ -61,12 +61,12 @@ pub(super) enum Part {
     Interreflection,
 }
 
-impl From<Part> for Component {
-    fn from(part: Part) -> Self {
-        match part {
-            Part::Direct => Self::Direct,
-            Part::Caustics => Self::Caustics,
-            Part::Interreflection => Self::Interreflection,
+impl From<ComponentName> for Component {
+    fn from(name: ComponentName) -> Self {
+        match name {
+            ComponentName::Direct => Self::Direct,
+            ComponentName::Caustics => Self::Caustics,
+            ComponentName::Interreflection => Self::Interreflection,
         }
     }
 }
@@ -132,8 +132,8 @@ pub(super) struct BenchArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
     /// Measure only this component of the light, which the reference image must show alone
-    #[arg(long, value_name = "PART")]
-    pub(super) only: Option<Part>,
+    #[arg(long, value_name = "COMPONENT")]
+    pub(super) only: Option<ComponentName>,
     /// Write the measurements to this CSV file
     #[arg(long, value_name = "OUT.csv")]
     pub(super) csv: Option<PathBuf>,

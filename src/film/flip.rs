@@ -24,7 +24,7 @@ mod tests {
     use crate::{math::Rgb, scene::ToneCurve};
 
     #[test]
-    fn what_looks_alike_differs_by_nothing_and_black_from_white_by_all() {
+    fn equal_images_differ_by_0_and_black_from_white_by_1() {
         let tone = ToneMap::new(0.0, ToneCurve::Srgb);
         let plain = |value| LinearImage { width: 32, height: 32, pixels: vec![Rgb::splat(value); 32 * 32] };
         let (black, gray, white) = (plain(0.0), plain(0.2), plain(1.0));

@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn two_references_take_their_noise_off() {
+    fn two_references_cancel_their_noise() {
         let x = image(vec![Rgb::splat(3.0); 4]);
         // The truth is 1; the second reference has the same noise where the first one is too bright as where it is too dark.
         let [first, second] = [[1.5, 1.5, 0.5, 0.5], [1.1, 0.9, 1.1, 0.9]].map(|r| image(r.map(Rgb::splat).to_vec()));

@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_image_is_refused() {
+    fn files_that_are_not_images_are_rejected() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a.png");
         assert!(matches!(Mask::read(&path), Err(ImageError::Read { .. })));

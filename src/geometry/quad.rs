@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn distances_are_those_of_the_nearest_of_many_points() {
+    fn distances_match_sampled_points() {
         let quad = Quad::new(DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 0.1, 0.0), DVec3::new(0.7, 1.0, 0.3));
         let grid = || (0..=200).flat_map(|i| (0..=200).map(move |j| (f64::from(i) / 200.0, f64::from(j) / 200.0)));
         for point in [DVec3::ZERO, DVec3::new(2.0, 2.5, 4.0), DVec3::new(9.0, 3.0, 3.0), DVec3::new(2.0, 1.0, 3.1)] {
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn knows_how_far_its_edges_are_and_what_is_beside_it() {
+    fn distances_to_edges_and_points_beside() {
         let quad = Quad::new(DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 4.0));
         let to_edge = |direction| quad.distance_to_edge(DVec2::new(0.25, 0.5), direction);
         assert_eq!([to_edge(DVec3::X), to_edge(DVec3::NEG_X), to_edge(DVec3::Z)], [1.5, 0.5, 2.0]);

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn far_tiny_and_huge_spheres_are_hit_where_they_are() {
+    fn far_tiny_and_huge_spheres_are_hit_accurately() {
         for (radius, distance) in [(1.0, 3.0), (1e-4, 1e3), (1e5, 1e5 + 1.0), (1.0, 1e7)] {
             let sphere = Sphere { center: DVec3::ZERO, radius };
             let ray = Ray::new(DVec3::new(0.0, 0.3 * radius, distance), DVec3::new(0.0, 0.0, -2.0));

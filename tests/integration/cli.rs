@@ -141,7 +141,7 @@ fn a_black_scene_ends_by_error_too() {
 }
 
 #[test]
-fn control_points_are_no_scene() {
+fn control_points_are_not_a_scene() {
     let dir = folder();
     fs::write(dir.path().join("sheet.bpt"), "0\n").unwrap();
     fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt: is a file of control points", "file = "]);

@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_logarithm_is_left_out() {
+    fn values_without_logarithm_are_skipped() {
         assert_eq!(labels(&[0.0, f64::NAN, f64::INFINITY, -1.0]), ["0.5", "1", "2"]);
         assert_eq!(labels(&[0.0, 0.25, f64::NAN, 16.0]), labels(&[0.25, 16.0]));
     }

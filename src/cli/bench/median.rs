@@ -71,7 +71,7 @@ mod tests {
     };
 
     #[test]
-    fn the_middle_of_the_values() {
+    fn median_of_odd_and_even_counts() {
         assert_eq!(median([3.0, 1.0, 9.0].into_iter()), 3.0);
         assert_eq!(median([4.0, 1.0, 9.0, 2.0].into_iter()), 3.0);
         assert_eq!(median([5.0].into_iter()), 5.0);

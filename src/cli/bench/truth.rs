@@ -69,7 +69,7 @@ mod tests {
     use crate::math::Rgb;
 
     #[test]
-    fn errors_are_told_apart_by_the_mask() {
+    fn the_mask_separates_errors() {
         let reference = LinearImage::black(2, 1);
         let image = LinearImage { pixels: vec![Rgb::splat(1.0), Rgb::splat(3.0)], ..reference.clone() };
         let mask = Mask { width: 2, height: 1, inside: vec![false, true] };

@@ -28,7 +28,7 @@ fn by_sampling(primitive: &Primitive, from: DVec3) -> f64 {
 }
 
 #[test]
-fn walls_are_beside_a_floor_and_what_stands_on_it_is_not() {
+fn walls_are_beside_a_floor_and_objects_on_it_are_not() {
     let floor = Quad::new(DVec3::ZERO, DVec3::X, DVec3::NEG_Z);
     let wall_at = |x: f64| {
         let quad = Quad::new(DVec3::new(x, 0.0, 0.0), DVec3::NEG_Z, DVec3::Y);
@@ -125,7 +125,7 @@ fn a_packet_finds_the_hits_of_its_rays() {
 }
 
 #[test]
-fn the_nearest_primitive_that_counts_is_found() {
+fn the_nearest_included_primitive_is_found() {
     let aggregate = scattered(40);
     let mut closer_than_boxes = 0;
     for k in 0..200 {

@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_reads_back_bit_for_bit() {
+    fn written_nets_read_back_bit_for_bit() {
         let nets = vec![net(), net().map(|p| p * 1e-300 + 1e5 / 3.0)];
         assert_eq!(read_bpt(&write_bpt(&nets)).unwrap(), nets);
         assert_eq!(read_bpt("0\n").unwrap(), vec![]);

@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn degenerate_patches_are_met_without_harm() {
+    fn degenerate_patches_are_intersected_safely() {
         let dome = |u: f64, v: f64| DVec3::new(u, v, u * (1.0 - u) + v * (1.0 - v));
         let table: [(&str, ControlNet); 12] = [
             ("a point", net(|_, _| DVec3::ONE)),
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_without_direction_and_numbers_that_are_none_meet_nothing() {
+    fn rays_without_direction_and_nan_hit_nothing() {
         let patch = Patch::new(net(|u, v| DVec3::new(u, v, 0.0)));
         let through = DVec3::new(0.5, 0.5, 1.0);
         for direction in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {

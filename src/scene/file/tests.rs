@@ -84,7 +84,7 @@ fn a_save_that_fails_changes_nothing() {
 }
 
 #[test]
-fn bytes_that_are_no_text_are_located() {
+fn invalid_utf8_is_located() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.toml");
     fs::write(&path, b"version = 1\nname = \"\xff\"\n").unwrap();

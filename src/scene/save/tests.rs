@@ -166,7 +166,7 @@ prop_compose! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
     #[test]
-    fn loading_what_was_saved_gives_the_same(scene in scene()) {
+    fn a_saved_scene_loads_as_the_same_scene(scene in scene()) {
         prop_assume!(validate(&scene).is_empty());
         let location = Location::Disk(std::path::PathBuf::from("src/test.toml"));
         let text = super::text(&scene);
@@ -178,7 +178,7 @@ proptest! {
 }
 
 #[test]
-fn the_text_is_made_to_be_read() {
+fn saved_text_is_readable() {
     let scene = SceneFile::built_in("cornell").unwrap().scene;
     let text = super::text(&scene);
     assert!(text.starts_with("version = 1\nname = "), "{text}");

@@ -1,6 +1,6 @@
 //! The file of a suite.
 
-use crate::cli::{CliError, args::Part};
+use crate::cli::{CliError, args::ComponentName};
 use serde::Deserialize;
 use std::{
     fs,
@@ -31,7 +31,7 @@ pub(super) struct Entry {
     reference_seconds: Option<Positive>,
     pub(super) mask: Option<PathBuf>,
     /// The component of the light that is measured; all by default.
-    pub(super) only: Option<Part>,
+    pub(super) only: Option<ComponentName>,
     /// The relMSE of another program, to compare with.
     pub(super) others: Option<Positive>,
     pub(super) seconds: Marks,
@@ -128,7 +128,7 @@ mod tests {
     const RUN: &str = "[[run]]\nname = \"a\"\nscene = \"a.toml\"\nseconds = [1, 0.5]\n";
 
     #[test]
-    fn what_is_not_said_has_a_default() {
+    fn missing_keys_have_defaults() {
         let runs = parse(RUN).unwrap();
         assert_eq!((runs.len(), runs[0].seeds.get(), runs[0].reference_seconds()), (1, 1, 16.0));
         let runs = parse(&format!("{RUN}reference_seconds = 3\nseeds = 5")).unwrap();
