@@ -48,6 +48,14 @@ fn paths_lead_to_the_file_that_defines_the_item() {
 }
 
 #[test]
+fn functions_that_a_macro_takes_are_items() {
+    let modules = with("simd_dispatch! { pub fn A() { crate::high::f() } }", "", "pub fn f() {}", "");
+    let item = Target::Item { module: path("low::a"), name: "A".to_owned() };
+    assert_eq!(modules.resolve(&path("low"), &path("A")), Some(item));
+    assert_eq!(rules::upward(&modules, &modules.uses().0), ["src/low/a.rs -> src/high.rs (f)"]);
+}
+
+#[test]
 fn an_import_against_the_order_is_found() {
     for (a, high, side, expected) in [
         ("pub struct A;", "use crate::low::A; pub struct H(A);", "", None),
@@ -122,7 +130,10 @@ fn a_folder_that_uses_its_own_files_makes_a_circle_with_them() {
 #[test]
 fn tables_list_every_file_and_no_other() {
     let modules = read(&[
-        ("src/lib.rs", "//! | file | holds |\n//! |---|---|\n//! | `a.rs` | a |\n//! | `c` | c |\nmod a; mod b;"),
+        (
+            "src/lib.rs",
+            "//! | file | holds |\n//! |---|---|\n//! | `mod` | a |\n//! | `a.rs` | a |\n//! | `c` | c |\nmod a; mod b;",
+        ),
         ("src/a.rs", ""),
         ("src/b.rs", ""),
     ]);

@@ -67,9 +67,9 @@ impl Modules {
             imports: Vec::new(),
             mentions: BTreeSet::new(),
         };
-        for item in items {
-            let (name, attributes) = name_and_attributes(item);
-            match item {
+        for item in items.iter().flat_map(items_of) {
+            let (name, attributes) = name_and_attributes(&item);
+            match &item {
                 _ if is_for_tests(attributes) => {}
                 Item::Mod(inner) => match &inner.content {
                     None => _ = module.files.insert(inner.ident.to_string()),
@@ -77,24 +77,11 @@ impl Modules {
                 },
                 _ => {
                     module.items.extend(name.map(Ident::to_string));
-                    module.visit_item(item);
-                    module.add_wrapped(item);
+                    module.visit_item(&item);
                 }
             }
         }
         self.0.insert(path.to_vec(), module);
-    }
-}
-
-impl Module {
-    /// Adds the items that a macro such as `simd_dispatch!` wraps.
-    fn add_wrapped(&mut self, item: &Item) {
-        let Item::Macro(wrapper) = item else { return };
-        let Ok(wrapped) = syn::parse2::<syn::File>(wrapper.mac.tokens.clone()) else { return };
-        for item in &wrapped.items {
-            self.items.extend(name_and_attributes(item).0.map(Ident::to_string));
-            self.visit_item(item);
-        }
     }
 }
 
@@ -147,6 +134,15 @@ fn flatten(tree: &UseTree, path: &mut Segments, add: &mut impl FnMut(&str, &[Str
         UseTree::Rename(tree) if tree.ident == "self" => add(&tree.rename.to_string(), path),
         UseTree::Rename(tree) => add(&tree.rename.to_string(), &child(path, &tree.ident.to_string())),
     }
+}
+
+/// The item, or the items that a macro like `simd_dispatch!` takes.
+fn items_of(item: &Item) -> Vec<Item> {
+    match item {
+        Item::Macro(call) if call.ident.is_none() => syn::parse2::<syn::File>(call.mac.tokens.clone()).ok(),
+        _ => None,
+    }
+    .map_or_else(|| vec![item.clone()], |file| file.items)
 }
 
 /// The name that an item defines, where it defines one, and the item's attributes.
