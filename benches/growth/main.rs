@@ -174,7 +174,7 @@ fn photons() {
         let (build, global) = seconds(|| PhotonMap::build(&batch.photons));
         let maps = Maps { global, ..Maps::default() };
         let gather = |batch: &CameraBatch| {
-            gather(&world, &plan, &maps, batch, ITERATION, Cancel::NEVER).expect("never cancelled").0
+            gather(&world, &plan, &maps, batch, 1, ITERATION, Cancel::NEVER).expect("never cancelled").0
         };
         let (gather, _) = seconds(|| seen.par_iter().map(gather).collect::<Vec<_>>());
         let (count, megabytes) = (batch.photons.len(), maps.global.memory_bytes() as f64 / f64::from(1 << 20));

@@ -111,7 +111,7 @@ fn iteration(world: &World, plan: &Plan) -> f64 {
     };
     let band = |rows| {
         let seen: CameraBatch = camera_pass(world, plan, &rows, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
-        gather(world, plan, &maps, &seen, ITERATION, Cancel::NEVER).expect("never cancelled").0.len()
+        gather(world, plan, &maps, &seen, 1, ITERATION, Cancel::NEVER).expect("never cancelled").0.len()
     };
     let gathered: usize = plan.bands(ITERATION).into_par_iter().map(band).sum();
     std::hint::black_box(gathered);

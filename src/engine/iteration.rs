@@ -60,7 +60,7 @@ fn render_band(
 ) -> Option<(Band, Work)> {
     let mut work = Work::default();
     let seen = timed(&mut work.seconds.camera, || camera_pass(world, plan, rows, seed, i, cancel))?;
-    let (gathered, counters) = timed(&mut work.seconds.gather, || gather(world, plan, maps, &seen, i, cancel))?;
+    let (gathered, counters) = timed(&mut work.seconds.gather, || gather(world, plan, maps, &seen, seed, i, cancel))?;
     work.counters = [seen.counters, counters].into_iter().sum();
     Some((Band::new(world, plan, rows, seen, &gathered, i), work))
 }

@@ -16,9 +16,13 @@ pub enum Stream {
     GlobalPhoton,
     /// Rays that find out what a light reaches.
     Probe,
+    /// Which sample of a pixel gathers photons, one sequence per pixel, one index per iteration.
+    GatheringSample,
+    /// Direction of a visibility polygon's first corner, one sequence per pixel, one index per iteration.
+    VisibilityPolygon,
     /// Random numbers of tests.
     Test,
-    /// Draft frames, each with a number of its own, apart from the converging picture.
+    /// The stream with this number in draft frames, whose numbers are independent of the converging picture.
     Draft(u8),
 }
 
@@ -31,6 +35,8 @@ impl Stream {
             Self::GlobalPhoton => 3,
             Self::Probe => 4,
             Self::Test => 5,
+            Self::GatheringSample => 6,
+            Self::VisibilityPolygon => 7,
             Self::Draft(number) => 0x80 | number,
         }
     }
@@ -94,7 +100,7 @@ impl Sampler {
 }
 
 /// A 64-bit hash: the finalizer of SplitMix64.
-pub fn mix64(x: u64) -> u64 {
+fn mix64(x: u64) -> u64 {
     let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -3,7 +3,7 @@
 use super::camera::CameraBatch;
 use super::interleaving::Interleaving;
 use crate::math::lanes::simd_dispatch;
-use crate::math::{Lanes, Rgb, sobol};
+use crate::math::{Lanes, Rgb, Sampler, Stream};
 use crate::transport::counters::Counters;
 use crate::transport::density::BandwidthDifference;
 use crate::transport::density::bandwidth::WIDER;
@@ -36,12 +36,13 @@ pub fn gather(
     plan: &Plan,
     maps: &Maps,
     seen: &CameraBatch,
+    seed: u64,
     iteration: u64,
     cancel: Cancel,
 ) -> Option<(Vec<Gathered>, Counters)> {
     let points = seen.visible_points.as_slice();
     let gatherer =
-        Gatherer { world, plan, maps, facets: &seen.facets, iteration, radii: plan.radii_of(world, iteration) };
+        Gatherer { world, plan, maps, facets: &seen.facets, seed, iteration, radii: plan.radii_of(world, iteration) };
     let mut stack = Stack::new();
     let interleaving = gatherer.interleaving(points);
     let mut counters = Counters { global_gathers: interleaving.gathering.len() as u64, ..Counters::default() };
@@ -103,6 +104,7 @@ struct Gatherer<'a> {
     plan: &'a Plan,
     maps: &'a Maps,
     facets: &'a [Facet],
+    seed: u64,
     iteration: u64,
     radii: IterationRadii<'a>,
 }
@@ -224,14 +226,15 @@ impl Gatherer<'_> {
         if point.clearance.standing >= reach {
             return None;
         }
-        let random = sobol::mix64(u64::from(point.pixel) ^ sobol::mix64(self.iteration)) as f64 / u64::MAX as f64;
+        let stream = self.plan.stream(Stream::VisibilityPolygon);
+        let mut sampler = Sampler::new(self.seed, stream, u64::from(point.pixel), self.iteration);
         let (polygon, rays) = VisibilityQuery {
             world: self.world,
             primitive: &self.world.aggregate.primitives()[point.primitive as usize],
             uv: point.uv,
             normal: point.n_side.as_dvec3(),
             reach,
-            turn: 4.0 * random,
+            turn: 4.0 * sampler.next_1d(),
         }
         .polygon();
         counters.rays += rays;

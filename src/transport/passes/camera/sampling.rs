@@ -4,7 +4,7 @@ use super::batch::CameraBatch;
 use super::pixel::Pixel;
 use super::tracer::CameraTracer;
 use crate::geometry::Hit;
-use crate::math::{LANES, Ray, Sampler, Stream, sobol};
+use crate::math::{LANES, Ray, Sampler, Stream};
 use crate::transport::density::PixelSamples;
 use crate::transport::pass::{Cancel, Rows};
 use crate::transport::plan::Plan;
@@ -46,7 +46,7 @@ pub fn camera_pass(
                 let count = plan.camera_samples(pixel.index, iteration).count();
                 let own = rest.split_off_mut(..count).unwrap_or_default();
                 let index = ((row - rows.start) * width + column) as usize;
-                tracer.batch.samples[index] = sample_pixel(&mut tracer, plan, &mut pixel, own, iteration);
+                tracer.batch.samples[index] = sample_pixel(&mut tracer, plan, &mut pixel, own, seed, iteration);
             }
         }
     }
@@ -100,6 +100,7 @@ fn sample_pixel(
     plan: &Plan,
     pixel: &mut Pixel,
     first_rays: &mut [FirstRay],
+    seed: u64,
     iteration: u64,
 ) -> PixelSamples {
     let count = first_rays.len();
@@ -112,9 +113,8 @@ fn sample_pixel(
         (true, true) => count.min(SAMPLES_OF_EDGE),
         (true, false) => 1,
     };
-    // A random position in the sequence: every n-th point of the sequence would keep to one part of the pixel.
-    let random = sobol::mix64(u64::from(pixel.index) ^ sobol::mix64(iteration)) as usize;
-    let first = random % (count / gathering.max(1)) * gathering;
+    let groups = count / gathering.max(1);
+    let first = if gathering > 0 { gathering_group(plan, pixel.index, groups, seed, iteration) * gathering } else { 0 };
     let first_point = tracer.batch.visible_points.len();
     for (index, FirstRay { sampler, ray, hit }) in first_rays.iter_mut().enumerate() {
         let gathers = (first..first + gathering).contains(&index);
@@ -132,4 +132,14 @@ fn sample_pixel(
         counters.dropped_samples += 1;
         PixelSamples::default()
     }
+}
+
+/// Which of so many groups of a pixel's samples gathers photons. At random, because a fixed choice would keep to one part of the pixel:
+/// every n-th point of the samples' sequence does.
+fn gathering_group(plan: &Plan, pixel: u32, groups: usize, seed: u64, iteration: u64) -> usize {
+    if groups < 2 {
+        return 0;
+    }
+    let mut sampler = Sampler::new(seed, plan.stream(Stream::GatheringSample), u64::from(pixel), iteration);
+    (sampler.next_1d() * groups as f64) as usize
 }
