@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | emission | `L S* E` | [`camera_pass`] |
 //! | direct light | `L D S* E` | [`camera_pass`], next event estimation |
-//! | visible caustics | `L S+ D E` | [`caustic_photon_pass`], splatted to the film |
+//! | visible caustics | `L S+ D E` | [`caustic_photon_pass`]: splats where the caustic is sharp, else density estimate |
 //! | caustics in mirrors and glass | `L S+ D S+ E` | [`caustic_photon_pass`], density estimate |
 //! | interreflection | `L .. D .. D S* E` | [`global_photon_pass`], density estimate |
 //! | light in gloss | `L .. D S* G S* E` | [`camera_pass`], and photons with the MIS weights of [`GlossyMis`] |
@@ -15,8 +15,8 @@
 //! Light that a Phong lobe shows belongs to the component that it would without the lobe; photons in the lobe belong to
 //! interreflection.
 //!
-//! A pass is a function of the world, the plan, the seed and the number of the iteration; it returns what it found. The rooms stand in
-//! the order in which light meets them; each uses only rooms above it:
+//! A pass is a function of the world, the plan, the seed and the number of the iteration, and returns owned data. `docs/method.md` holds the
+//! equations. The folders are in the order in which light meets them; each uses only folders above it:
 //!
 //! | file | holds |
 //! |---|---|
