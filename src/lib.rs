@@ -2,7 +2,7 @@
 //! patches, spheres and planes. A window shows a scene; the user drags a control point, a light or a material, and the
 //! caustics form again at once; left alone, the picture converges.
 //!
-//! This page is the architecture.
+//! This page is the architecture. The method with its equations is on one page, `docs/method.md` in the repository.
 //!
 //! # Data flow
 //!
@@ -21,11 +21,13 @@
 //!                                                             |        ▼
 //!                                                             |   a draft, never cancelled, then finer ones, then 1, 2, ...
 //!                                                             |   ┌─ iteration i ───────────────────────────────┐
-//!                                                             |   │ photon passes ─► caustic, global photons    │
-//!                                                             |   │ photon map    ─► kd-trees                   │
-//!                                                             |   │ camera pass   ─► visible points, direct     │
-//!                                                             |   │ gather        ─► radiance at visible points │
-//!                                                             |   │ commit        ─► film, all or nothing       │
+//!                                                             |   │ photon passes ─► photons, splats            │
+//!                                                             |   │ photon maps   ─► four kd-trees              │
+//!                                                             |   │ in bands of rows:                           │
+//!                                                             |   │   camera pass ─► visible points, samples    │
+//!                                                             |   │   gather pass ─► radiance at visible points │
+//!                                                             |   │ contribution  ─► bands, splats, lobe reuse  │
+//!                                                             |   │ commit        ─► film sums, statistics      │
 //!                                                             |   │   after 4, 8, ...: the plan is refined      │
 //!                                                             |   └──────────────────┬──────────────────────────┘
 //!    newest frame only, never an older generation ◄───────────┼── Frame { generation, iteration, image, stats }
@@ -33,9 +35,40 @@
 //!    exposure, tone curve ─► texture ─► canvas ─► handles     |
 //! ```
 //!
-//! The photon passes come first so that the camera pass and the gather can go through the film in bands: memory for
-//! visible points does not grow with the picture. `patchlight render` and `bench` run a [`engine::Session`], the same
-//! iterations without the thread.
+//! The photon passes come first so that the camera pass and the gather pass can go through the film in bands: memory for
+//! visible points does not grow with the picture. `patchlight render` and `bench` run an [`engine::Session`], which renders
+//! the same iterations on the caller's thread.
+//!
+//! # Example
+//!
+//! Renders a scene to a PNG file.
+//!
+//! ```
+//! use patchlight::engine::Session;
+//! use patchlight::film::{ToneMap, write_png};
+//! use patchlight::math::Rgb;
+//! use patchlight::scene::SceneFile;
+//! use patchlight::transport::Cancel;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut file = SceneFile::built_in("water")?;
+//! (file.scene.film.width, file.scene.film.height) = (48, 32);
+//! let seed = 1;
+//! let mut session = Session::prepare(&file, seed, None)?;
+//! for _ in 0..3 {
+//!     session.advance(Cancel::NEVER);
+//! }
+//! let image = session.frame(0).image;
+//! assert!(image.pixels.iter().any(|&pixel| pixel != Rgb::ZERO));
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("water.png");
+//! let film = &file.scene.film;
+//! write_png(&path, &image, &ToneMap::new(film.exposure, film.tone_curve))?;
+//! assert!(path.metadata()?.len() > 0);
+//! # Ok(())
+//! # }
+//! ```
 //!
 //! # Modules
 //!
@@ -44,7 +77,7 @@
 //! | module | holds | never knows |
 //! |---|---|---|
 //! | [`mod@file`] | writing a file whole or not at all | what it writes |
-//! | [`math`] | rays, boxes, frames, error bounds, sampling warps, index-based random streams | colour, scenes, time |
+//! | [`math`] | rays, boxes, orthonormal bases, error bounds, sampling warps, index-based random streams | colour, scenes, time |
 //! | [`geometry`] | sphere, quad, plane, [`geometry::bezier`], the tree over primitives | materials, files, threads |
 //! | [`scene`] | what the user describes: plain data; load, save, validate | trees, images, rendering, windows |
 //! | [`world`] | what the renderer reads, prepared from a scene, immutable | passes, windows |
@@ -55,49 +88,82 @@
 //!
 //! # Rules
 //!
-//! - A pass is a function of what stands in its signature. Random numbers depend on (seed, stream, iteration, index,
-//!   dimension) alone, so one thread and many give the same bits.
-//! - An iteration is a pure function of (world, plan, seed, i), so films of parts can be merged. Iterations differ in size
-//!   by a fixed schedule; what photons bring counts in the mean by their size, camera samples by how many the pixels around
-//!   ask for. The plan is refined after iterations 4, 8, 16, ... by what iterations measured: radii of density estimates,
-//!   where caustics are gathered, and samples of each pixel.
-//! - A cancelled pass returns nothing, and the film changes only by whole iterations.
+//! - A pass is a function of its arguments. A random number depends on (seed, stream, sequence, index, dimension) alone; the
+//!   index of a pixel's or a light's sequence runs on through all iterations. One thread and many give the same bits.
+//! - An iteration is a pure function of (world, plan, seed, i), so films of consecutive iterations can be merged. A fixed
+//!   schedule sets the size of an iteration, by which its photons count in the mean. Its camera samples count by the number
+//!   that the neighbouring pixels ask for. After iterations 4, 8, 16, ... the plan is refined by what iterations measured:
+//!   radii of density estimates, pixels that gather caustics, and the number of camera samples of each pixel.
+//! - A cancelled pass returns nothing, and the film changes only by whole iterations. Drafts never enter the film.
 //! - Colours are `f32`; positions, directions and distances are `f64`, because the offset that keeps a ray off the surface
-//!   it leaves has to be small against the scene and large against rounding. Photons are stored in `f32`, relative to the
-//!   middle of the scene.
-//! - Nothing not finite enters the film; what is left out is counted and shown.
+//!   it leaves has to be small against the scene and large against rounding. Photons and visible points are stored in `f32`,
+//!   relative to the middle of the scene.
+//! - Only finite values enter the film; dropped values are counted and shown.
+//! - Every path of light belongs to one component, and one technique, or the MIS weights of several, finds it.
 //!
 //! # Glossary
 //!
+//! Light and paths:
+//!
 //! | word | meaning |
 //! |---|---|
-//! | iteration | one full round of the algorithm; a *pass* is one stage in it |
-//! | path, vertex | light's way between a light and the camera, and its events |
-//! | visible point | where a camera path meets a surface that scatters in many directions |
-//! | photon | flux that arrived at a point, with its direction |
-//! | patch, part, packet | a bicubic surface; one of the nearly flat pieces into which it is cut; shapes that a ray meets side by side: eight parts, four quads or spheres |
-//! | throughput | what a path keeps of the light that enters at its end (beta in papers) |
-//! | `wi`, `wo` | directions away from the surface: towards where light comes from, and where it goes |
-//! | `n_geom`, `n_side`, `n_shade` | unit normal of the front; of the side at hand; as tilted by a relief map |
+//! | path, vertex | light's way between a light and the camera; a scattering event on it |
+//! | throughput | fraction of the light entering at a path's end that reaches its start (beta in papers) |
+//! | `wi`, `wo` | unit directions away from a surface: towards where light comes from, and where it goes |
+//! | `n_geom`, `n_side`, `n_shade` | unit normal of a surface's front; of the side that the path is on; on that side, perturbed by a normal or height map |
 //! | `eta` | index of refraction behind an interface over the index in front of it |
-//! | footprint | side of a pixel, projected to a distance |
-//! | clearance | distance from a visible point to the next object: interreflection changes within a part of it |
-//! | visibility polygon | what is seen of a plane from a visible point in it: what stands there hides photons beyond |
-//! | tilt | a photon counts by how the surface looks where it is gathered, not where it arrived |
-//! | leader | a visible point that gathers interreflection for its neighbours too |
-//! | splat | a photon's light added to the pixel that sees it, where caustics are sharp |
-//! | component | direct light, caustics or interreflection: every path of light belongs to one of them |
-//! | contrast | how much brighter a visible point is in a wider disc: tells the bias of the density estimate |
-//! | varied | of a pixel: it shows several surfaces or a texture |
-//! | relevance | of a light: the part of its paths that reaches what the camera sees |
-//! | share | of a light: about the part of the direct light at a point that is its own |
-//! | bandwidth | radii of density estimates over the film, chosen by the contrasts |
-//! | focused | of photons: sent on by mirrors or glass after they were scattered |
-//! | lobe view | a Phong lobe as it shows one direction: tells which light seen in it is the camera's, and which photons bring; *seen lobe*: what a pixel finds in one and shares with its neighbours |
-//! | lanes | numbers that one vector instruction handles side by side |
-//! | control net | the 4 x 4 control points of a patch; `dpdu`, `dpdv` are the surface's derivatives |
-//! | specular | going on in one direction: mirrors and glass; *glossy*: a Phong lobe |
-//! | caustic | light that met mirrors or glass only, between the light and the visible point |
+//! | specular, glossy | scattering into one direction by a mirror or glass; into a Phong lobe |
+//! | component | direct light (with emission), caustics or interreflection: every path of light belongs to one of them |
+//! | caustic | light that met only mirrors or glass between the light and the visible point |
+//! | indirect caustic | light that mirrors or glass send on after a diffuse or glossy surface scattered it |
+//! | interreflection | light that diffuse or glossy surfaces scattered at least twice |
+//! | visible point | point of a diffuse or glossy surface that a camera path reaches, and where photons are gathered |
+//! | facet | shading normal and albedo at one camera sample of a pixel on a surface with relief |
+//! | viewing lobe | last Phong lobe through which a camera path sees a point |
+//! | light importance | fraction of a light's photon paths that reach what the camera may see |
+//!
+//! Photons and density estimates:
+//!
+//! | word | meaning |
+//! |---|---|
+//! | photon | flux that arrived at a point of a surface, with its direction |
+//! | photon map | kd-tree over photons; an iteration has one each for caustics, interreflection, indirect caustics and Phong lobes |
+//! | projection map | density over the directions of a light that aims photons at mirrors and glass |
+//! | splat | flux of a caustic photon added to the pixel that sees it, without a density estimate (light tracing) |
+//! | density estimate | kernel-weighted sum of the flux of photons in a disc, over the kernel's integral: irradiance or radiance |
+//! | footprint | side of a pixel projected to the distance of a point, scene units |
+//! | clearance | distance from a visible point to the nearest other object, scene units; limits the radius |
+//! | visibility polygon | part of a plane that a point of the plane sees past objects standing on it |
+//! | cosine correction | factor of a photon's flux: the cosine at the gathering point over the cosine where the photon arrived |
+//! | bandwidth | radii of density estimates over the film, relative to the radii after one full iteration |
+//! | bandwidth difference | change of a density estimate in a disc 1.5 times as wide; tells its bias |
+//! | interleaved sampling | one pixel of each square of 2 x 2 gathers irradiance for its neighbours; the pixel changes with the iteration |
+//! | lobe reuse | each pixel takes the mean over its neighbours' samples of a Phong lobe |
+//! | MIS weight | share of a technique in the light of a path that several techniques can find |
+//!
+//! Iterations and the film:
+//!
+//! | word | meaning |
+//! |---|---|
+//! | iteration, pass | one full round of the algorithm; one stage of a round |
+//! | size of an iteration | its number of photon paths over the number of a full iteration; 1/8, 1/4, 1/2, then 1 |
+//! | plan | what every pass does for a scene: paths, radii, samples; new, draft, refined, or for only one component |
+//! | draft | quick first picture after an edit, with fewer pixels and photons |
+//! | generation | number of a scene that the engine was sent; grows with each edit |
+//! | band | whole rows of the film that the camera pass and the gather pass render independently |
+//! | heterogeneous pixel | pixel that shows several surfaces or a texture; gets at least four camera samples |
+//! | convergence rate | power of the number of samples with which the variance of their mean falls |
+//!
+//! Surfaces:
+//!
+//! | word | meaning |
+//! |---|---|
+//! | patch, control net | a bicubic Bezier surface; its 4 x 4 control points |
+//! | `dpdu`, `dpdv` | derivatives of the position by the parameters u and v |
+//! | subpatch | nearly flat piece of a patch over a rectangle of its parameters: a leaf's item in the tree of the patch |
+//! | unit space | coordinates of a patch in which its box has a diagonal of 1/2 to 1 |
+//! | ray packet | eight rays that go through a tree together, one in each SIMD lane |
+//! | lane | slot of a SIMD vector; a vector has eight |
 //!
 //! # References
 //!
@@ -109,10 +175,13 @@
 //! - \[GKDS12\] I. Georgiev et al., Light Transport Simulation with Vertex Connection and Merging, ACM TOG 31(6), 2012.
 //! - \[Haines19\] E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray
 //!   Tracing Gems, 2019.
+//! - \[HJ09\] T. Hachisuka, H. W. Jensen, Stochastic Progressive Photon Mapping, ACM TOG 28(5), 2009.
+//! - \[HOJ08\] T. Hachisuka, S. Ogaki, H. W. Jensen, Progressive Photon Mapping, ACM TOG 27(5), 2008.
 //! - \[Jensen96\] H. W. Jensen, Global Illumination using Photon Maps, EGWR 1996.
 //! - \[JoeKuo08\] S. Joe, F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci.
 //!   Comput. 30, 2008.
 //! - \[KD13\] A. Kaplanyan, C. Dachsbacher, Adaptive Progressive Photon Mapping, ACM TOG 32(2), 2013.
+//! - \[KellerHeidrich01\] A. Keller, W. Heidrich, Interleaved Sampling, EGWR 2001.
 //! - \[KZ11\] C. Knaus, M. Zwicker, Progressive Photon Mapping: A Probabilistic Approach, ACM TOG 30(3), 2011.
 //! - \[LafortuneWillems94\] E. Lafortune, Y. Willems, Using the Modified Phong Reflectance Model for Physically Based
 //!   Rendering, KU Leuven CW 197, 1994.
