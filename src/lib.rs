@@ -168,6 +168,7 @@
 //! # References
 //!
 //! - \[Andersson20\] P. Andersson et al., FLIP: A Difference Evaluator for Alternating Images, HPG 2020.
+//! - \[Blinn78\] J. Blinn, Simulation of Wrinkled Surfaces, SIGGRAPH 1978.
 //! - \[Burley20\] B. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 //! - \[Clarberg08\] P. Clarberg, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, JGT 13(3), 2008.
 //! - \[Duff17\] T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.

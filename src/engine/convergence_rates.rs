@@ -75,21 +75,21 @@ mod tests {
         }
     }
 
-    /// What is expected of pixels whose variance falls like this power, with so many samples in the parts.
-    fn laws(power: f64, first: f64, other: f64) -> ConvergenceRates {
+    /// The expected rates of pixels whose variance falls like this power, with so many samples in the parts.
+    fn rates(power: f64, first: f64, other: f64) -> ConvergenceRates {
         let all = first + other;
         let squared = |n: f64| n.powf(2.0 - power);
         let covariances = squared(all) - squared(first) - squared(other);
         let expected = first.powf(-power) + other.powf(-power) - covariances / (first * other);
-        let mut laws = ConvergenceRates::default();
-        laws.include(expected, first, other);
-        laws
+        let mut rates = ConvergenceRates::default();
+        rates.include(expected, first, other);
+        rates
     }
 
     #[test]
-    fn the_law_that_fits_is_found() {
+    fn the_rate_that_fits_is_found() {
         let found = |power: f64, first: f64, other: f64| {
-            let noise = laws(power, first, other).squared_noise(Some(&laws(power, 1.0, 1.0)));
+            let noise = rates(power, first, other).squared_noise(Some(&rates(power, 1.0, 1.0)));
             assert!((noise / (first + other).powf(-power) - 1.0).abs() < 0.05, "{power} {first} {other}: {noise}");
         };
         for power in [1.0, 1.2, 1.5, 1.7, 2.0, 2.3, 3.0] {
@@ -102,17 +102,17 @@ mod tests {
 
     #[test]
     fn samples_that_others_do_not_balance_count_as_much_as_an_edge_would() {
-        let noise = laws(3.0, 8.0, 4.0).squared_noise(Some(&laws(3.0, 4.0, 4.0)));
-        assert_eq!(noise, laws(3.0, 8.0, 4.0).of_all[UNBALANCED]);
+        let noise = rates(3.0, 8.0, 4.0).squared_noise(Some(&rates(3.0, 4.0, 4.0)));
+        assert_eq!(noise, rates(3.0, 8.0, 4.0).of_all[UNBALANCED]);
     }
 
     #[test]
-    fn slower_and_faster_laws_than_there_are_count_as_the_last_ones() {
-        let slow = laws(1.0, 2.0, 2.0).squared_noise(Some(&laws(3.0, 1.0, 1.0)));
-        assert!(slow > 0.0 && slow <= laws(1.0, 2.0, 2.0).of_all[0], "{slow}");
-        let mut grown = laws(1.0, 2.0, 2.0);
+    fn slower_and_faster_rates_than_listed_count_as_the_last_ones() {
+        let slow = rates(1.0, 2.0, 2.0).squared_noise(Some(&rates(3.0, 1.0, 1.0)));
+        assert!(slow > 0.0 && slow <= rates(1.0, 2.0, 2.0).of_all[0], "{slow}");
+        let mut grown = rates(1.0, 2.0, 2.0);
         grown.include(1e3, 2.0, 2.0);
-        assert_eq!(grown.squared_noise(Some(&laws(1.0, 1.0, 1.0))), grown.of_all[0]);
+        assert_eq!(grown.squared_noise(Some(&rates(1.0, 1.0, 1.0))), grown.of_all[0]);
         assert_eq!(grown.squared_noise(None), grown.of_all[0]);
     }
 
@@ -122,8 +122,8 @@ mod tests {
         none.include(1.0, 0.0, 2.0);
         assert_eq!(none, ConvergenceRates::default());
         none.include(0.0, 2.0, 2.0);
-        assert_eq!(none.squared_noise(Some(&laws(1.0, 1.0, 1.0))), 0.0);
+        assert_eq!(none.squared_noise(Some(&rates(1.0, 1.0, 1.0))), 0.0);
         assert_eq!(none.squared_noise(Some(&none)), 0.0);
-        assert!(laws(1.5, 2.0, 2.0).squared_noise(Some(&none)) > 0.0, "what is new");
+        assert!(rates(1.5, 2.0, 2.0).squared_noise(Some(&none)) > 0.0, "what is new");
     }
 }

@@ -86,7 +86,7 @@ impl FilmSums {
     /// The first iteration after which the error is estimated: two do not tell how fast the noise falls.
     pub const ESTIMATED_FROM: u64 = 3;
 
-    /// A film without iterations.
+    /// A film of this many columns and rows of pixels, without iterations.
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             width,
@@ -104,8 +104,8 @@ impl FilmSums {
         self.width as usize * self.height as usize
     }
 
-    /// Adds the next iteration: the radiance from photons, with this weight, and the camera samples, with their own weights; one of each
-    /// for every pixel.
+    /// Adds the next iteration: the radiance from photons, with this weight, and the camera samples, with their own weights. Both slices hold
+    /// one value for each pixel of the film.
     pub fn commit(&mut self, weight: f64, photons: &[Rgb], samples: &[PixelSamples]) {
         debug_assert_eq!([photons.len(), samples.len()], [self.pixel_count(); 2], "an iteration covers the film");
         self.all.resize(self.pixel_count(), PixelSums::default());
@@ -124,7 +124,7 @@ impl FilmSums {
         self.weight += weight;
     }
 
-    /// Adds the iterations of another film of the same size, which follow those of this film.
+    /// Adds the iterations of another film of the same size, which follow the iterations of this film.
     pub fn merge(&mut self, other: &Self) {
         debug_assert_eq!((other.width, other.height), (self.width, self.height), "films of one size");
         if self.all.is_empty() {
@@ -149,7 +149,7 @@ impl FilmSums {
         self.iterations
     }
 
-    /// The mean over the iterations; black before the first.
+    /// The weighted mean over the iterations; black before the first.
     pub fn image(&self) -> LinearImage {
         if self.all.is_empty() {
             return LinearImage::black(self.width, self.height);

@@ -21,7 +21,7 @@ pub struct Frame {
     pub plan: Arc<PlanSummary>,
 }
 
-/// The decisions of a plan: what is rendered, what is skipped, and why.
+/// The decisions of a plan: which components are rendered, which are skipped, and why.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PlanSummary {
     /// Every decision.

@@ -56,7 +56,7 @@ impl Engine {
         self.shared.generation.load(Ordering::Acquire)
     }
 
-    /// Takes the newest frame; `None` if it was taken before.
+    /// Takes the newest frame; `None` if it was taken before, or before the first frame.
     pub fn newest_frame(&self) -> Option<Arc<Frame>> {
         self.shared.take_newest()
     }

@@ -1,4 +1,4 @@
-//! What the caller and the engine say to each other.
+//! Commands to the engine, its settings, its status and its errors.
 
 use crate::scene::SceneFile;
 use std::sync::Arc;

@@ -59,8 +59,8 @@ pub struct Session {
 }
 
 impl Session {
-    /// Prepares a scene and its plan; parts that a previous session's scene has in common are reused. Call this inside the thread pool
-    /// that is to do the work.
+    /// Prepares a scene and its plan, and reuses what the scene has in common with the scene of the `previous` session. Call this inside
+    /// the thread pool that is to do the work.
     ///
     /// # Errors
     ///
@@ -95,7 +95,7 @@ impl Session {
         self
     }
 
-    /// The decisions of the plan.
+    /// The decisions of the plan before any measurement.
     pub fn plan(&self) -> &Arc<PlanSummary> {
         &self.summary
     }
@@ -152,7 +152,7 @@ impl Session {
         self.film.error_estimate(self.statistics.as_ref().map_or(0.0, FilmStatistics::squared_bias))
     }
 
-    /// Rendering time of all iterations, seconds.
+    /// Rendering time of all iterations, cancelled ones included, seconds.
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
@@ -162,13 +162,14 @@ impl Session {
         &self.film
     }
 
-    /// The picture so far.
+    /// The picture so far, black before the first iteration, as a frame of this generation.
     pub fn frame(&self, generation: u64) -> Frame {
         let image = Arc::new(self.film.image());
         self.frame_of(generation, image, self.film.iterations(), self.stats())
     }
 
-    /// A quick picture with every `coarseness`-th pixel each way; `None` when cancelled. The film stays as it is.
+    /// A quick picture with every `coarseness`-th pixel each way, as a frame of this generation; `None` when cancelled. The film stays as it
+    /// is.
     pub fn draft(&self, generation: u64, coarseness: u32, cancel: Cancel) -> Option<Frame> {
         let start = Instant::now();
         let plan = self.plan.draft(coarseness);

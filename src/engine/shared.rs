@@ -6,7 +6,7 @@ use crate::scene::SceneFile;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The caller's newest commands, together.
+/// The caller's newest commands. The worker takes scenes and restarts; the other fields stay.
 #[derive(Debug, Default)]
 pub(super) struct Request {
     /// The newest scene and its generation, until the worker takes it.

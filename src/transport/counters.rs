@@ -4,7 +4,7 @@ use serde::Serialize;
 use std::iter::Sum;
 use std::ops::AddAssign;
 
-/// How much work the passes did: tests prove by it that needless work is skipped.
+/// Numbers of rays, photons and other work of the passes. Tests read them to prove that needless work is skipped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
     /// Rays traced to the nearest surface.

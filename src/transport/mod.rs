@@ -20,12 +20,12 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `pass`, `counters` | what every pass takes and counts |
+//! | `pass`, `counters` | arguments and work counters of all passes |
 //! | `points/` | scattering at a point of a surface |
 //! | `lights/` | emission and sampling of lights |
 //! | `photons/` | photons and their maps |
-//! | `density/` | density estimation, and what is measured to improve it |
-//! | `plan/` | what a scene needs |
+//! | `density/` | density estimation, and the measurements that improve it |
+//! | `plan/` | which components a scene needs, and how they are rendered |
 //! | `passes/` | the passes of an iteration |
 
 mod counters;

@@ -1,6 +1,6 @@
-//! What every pass takes: the rows of the film that it renders, and the question whether its result is still wanted.
+//! Arguments that passes have in common: rows of the film, and cancellation.
 
-/// Rows of the film, counted from the top.
+/// A range of rows of the film, counted from 0 at the top; the end is excluded.
 pub type Rows = std::ops::Range<u32>;
 
 /// Tells a pass that its result is no longer wanted.

@@ -11,11 +11,11 @@ use crate::transport::photons::{MapKind, PerMap};
 
 /// Radius of the wider disc over that of the narrower one.
 pub(in crate::transport) const WIDER: f64 = 1.5;
-/// Pixels along a side of a cell. One pixel of each cell is measured, the same one until the next refinement: differences between
-/// pixels would count as noise and hide what is sharp.
+/// Pixels along a side of a cell. One pixel of each cell is measured, the same pixel until the next refinement: differences between
+/// pixels would count as noise, and sharp light would look smooth.
 const CELL: u32 = 2;
-/// Variance of a mean over photons of one low-discrepancy sequence, relative to independent photons, as far as it matters for the
-/// best radius. Measured: with 0.25 and with 1 the error of boxes with and without mirrors and glass is greater or takes more time.
+/// Variance of a mean over photons of one low-discrepancy sequence over the variance for independent photons, as the best radius needs it.
+/// Measured: with 0.25 and with 1 the error of boxes with and without mirrors and glass is greater or takes more time.
 const EVENNESS: f64 = 0.5;
 /// The squared bias is averaged over a square of this many cells to each side: noise hides it on single cells.
 const SIGNAL_REACH: usize = 2;
@@ -27,7 +27,7 @@ const TRUST_REACH: usize = 3;
 /// The least and the greatest factor of one refinement; the next refinement corrects a wrong one.
 const STEP: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
-/// Greatest radius of a map's discs over their radius in a full first iteration. Caustics begin with small discs, because they may be
+/// Greatest radius of a map's discs over their radius after one full iteration. Caustics begin with small discs, because they may be
 /// sharp; most of them are not.
 pub(in crate::transport) fn most_growth(kind: MapKind) -> f64 {
     match kind {
@@ -158,7 +158,7 @@ impl Sums {
         squares / f64::from(self.count.saturating_sub(1).max(1))
     }
 
-    /// The part of the variance that wider discs reduce.
+    /// The shot-noise part of the variance, which wider discs reduce.
     fn noise(&self) -> f64 {
         self.shot_noise.map_or_else(|| self.variance(), |sum| sum / f64::from(self.count.max(1)))
     }
@@ -215,7 +215,7 @@ impl BandwidthDifferences {
     }
 }
 
-/// Radii of each cell and map, relative to a full first iteration.
+/// Measured radii of density estimates, for each map and cell of 2 x 2 pixels, as factors of the radii after one full iteration.
 #[derive(Clone, Debug)]
 pub struct Bandwidth {
     cells: Cells,
@@ -359,7 +359,7 @@ mod tests {
         assert!((none.at(KIND, 99) - 0.7).abs() < 1e-6, "unmeasured");
     }
 
-    /// Where there is no bias discs grow, on the whole, but never beyond those of the first iteration.
+    /// Where there is no bias, discs grow on the whole, but never beyond the discs of the first iteration.
     #[test]
     fn noise_alone_does_not_shrink_discs() {
         let mut bandwidth = Bandwidth::first(&measured(16, 0.0, 1.0), 16.0, 0.8);

@@ -1,4 +1,4 @@
-//! What iterations measure about the film, for the plan's refinement and the error estimate.
+//! Measurements of iterations, for the plan's refinement and the error estimate.
 
 use super::bandwidth::{BandwidthDifference, BandwidthDifferences};
 use super::sample_allocation::{FilmSamples, PixelSamples};
@@ -37,7 +37,7 @@ impl FilmStatistics {
         }
     }
 
-    /// Adds the measurements of an iteration, one value of each kind for each pixel of the film.
+    /// Adds the measurements of iteration `iteration` (from 1): both slices hold one value for each pixel of the film.
     pub fn add(&mut self, iteration: u64, differences: &[BandwidthDifference], samples: &[PixelSamples]) {
         self.differences.add(iteration, differences);
         self.samples.add(samples);
@@ -47,8 +47,8 @@ impl FilmStatistics {
         }
     }
 
-    /// Estimate of the mean squared bias of the picture's density estimates, over pixels and channels; noisy after few iterations, never
-    /// negative. The bias of iterations adds up, because it has the same sign in all of them.
+    /// Estimate of the mean squared bias of the picture's density estimates over pixels and channels, squared radiance; noisy after few
+    /// iterations, never negative, 0 before it was measured. The bias of iterations adds up, because it keeps its sign.
     pub fn squared_bias(&self) -> f64 {
         let weight = self.bias.weight + self.bias_before.weight;
         if weight > 0.0 { ((self.bias.weighted + self.bias_before.weighted) / weight).powi(2) } else { 0.0 }

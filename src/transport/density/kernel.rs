@@ -37,7 +37,7 @@ impl Moments {
         if self.zeroth < least { Self { zeroth: least, ..Self::ZERO } } else { self }
     }
 
-    /// The kernel's slope and integral: those of [`Self::linear`], or without a slope, which is less noisy.
+    /// The kernel's slope and integral: by [`Self::linear`] if `linear`, else without a slope, which is less noisy.
     pub(in crate::transport) fn slope_and_integral(&self, linear: bool) -> (DVec2, f64) {
         if linear { self.linear() } else { (DVec2::ZERO, self.zeroth) }
     }

@@ -1,15 +1,15 @@
-//! Density estimation: what turns photons near a point into radiance, and what iterations measure to improve it.
+//! Density estimation, which turns photons near a point into radiance, and the measurements that improve it.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `schedule` | sizes of iterations, and how radii shrink |
 //! | `kernel` | the kernel and its moments over a clipped disc |
-//! | `visibility_polygon` | what a point sees of its plane among standing objects |
+//! | `visibility_polygon` | the part of its plane that a point sees past standing objects |
 //! | `disc` | the disc of a point: kernel, edges, visibility |
 //! | `estimate` | sums over a disc: irradiance and reflected radiance |
 //! | `bandwidth` | radii over the film by measured bias and variance |
 //! | `sample_allocation` | camera samples of each pixel by measured variance |
-//! | `film_statistics` | what iterations measure about the film |
+//! | `film_statistics` | measurements of iterations |
 
 pub(in crate::transport) mod bandwidth;
 pub(in crate::transport) mod disc;

@@ -1,9 +1,9 @@
 //! Allocation of camera samples: each pixel gets samples in proportion to their standard deviation, which makes the error of the
 //! picture least for a total number of samples (Neyman allocation, \[Neyman34\]).
 //!
-//! An iteration's weight in its pixel's mean goes by the number of samples, too, so that the few samples of the first iterations do
-//! not count as much as the many of later ones. But it goes by the number that the neighbouring pixels ask for: weights by a pixel's
-//! own samples would bias the mean, because a pixel whose samples happen to agree gets few further samples. A small bias remains,
+//! The weight of an iteration in the mean of a pixel follows the number of samples, too: the few samples of the first iterations count
+//! less than the many samples of later iterations. But it is the number that the neighbouring pixels ask for: weights by a pixel's own
+//! samples would bias the mean, because a pixel whose samples happen to agree gets few further samples. A small bias remains,
 //! because neighbours see the same edges: lamps of a fifth of a pixel at pixels' corners are 4 % too dark after 16 iterations, 0.5 %
 //! after 64, a small fraction of their noise. Weights from samples that are taken in any case do no better: lamps at random positions
 //! are 1.7 % too bright then, because the samples of one sequence are not independent.
@@ -33,7 +33,7 @@ const REACH: usize = 1;
 pub struct PixelSamples {
     /// Number of samples.
     pub count: u32,
-    /// Weight of the samples' mean among those of all iterations.
+    /// Weight of the samples' mean in the weighted mean over iterations.
     pub weight: f32,
     /// Sum of the radiance of the samples.
     pub sum: Rgb,
@@ -238,8 +238,8 @@ mod tests {
     fn samples_that_agree_are_few() {
         assert_eq!(counts(&film(|_| [0.7; 2], |_| false)), vec![1; PIXELS as usize]);
         assert_eq!(counts(&film(|_| [0.0; 2], |_| false)), vec![1; PIXELS as usize], "a black picture");
-        let varied = counts(&film(|_| [0.7; 2], |pixel| pixel == 3));
-        assert_eq!((varied[3], varied[4]), (SAMPLES_OF_HETEROGENEOUS, 1));
+        let heterogeneous = counts(&film(|_| [0.7; 2], |pixel| pixel == 3));
+        assert_eq!((heterogeneous[3], heterogeneous[4]), (SAMPLES_OF_HETEROGENEOUS, 1));
     }
 
     #[test]

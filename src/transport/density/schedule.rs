@@ -23,8 +23,8 @@ pub(in crate::transport) fn size_before(i: u64) -> f64 {
     FIRST_SIZE * ((1u64 << growing) - 1) as f64 + (before - growing) as f64
 }
 
-/// Radius in iteration `i` over the radius in a full first iteration: the schedule of \[KZ11\] by the number of photons so far, in
-/// the power form, which needs no recursion.
+/// Radius in iteration `i` over the radius after one full iteration: the schedule of \[KZ11\] by the number of photon paths of iterations
+/// 1 to `i`, in the power form, which needs no recursion.
 pub(in crate::transport) fn shrink(i: u64) -> f64 {
     size_before(i.max(1) + 1).powf(-0.5 * (1.0 - ALPHA))
 }

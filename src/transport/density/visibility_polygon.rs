@@ -1,5 +1,5 @@
-//! The visibility polygon: what a point of a plane sees of the plane, where objects stand on it. Photons behind such an object tell
-//! nothing of the light at the point, however near they are.
+//! The visibility polygon: the part of a plane that a point of the plane sees past objects standing on it. Photons behind such an object
+//! say nothing about the light at the point, however near they are.
 
 use super::kernel::Moments;
 use crate::geometry::Primitive;
@@ -12,7 +12,7 @@ const DIRECTIONS: usize = 16;
 /// Height of the rays above the plane, as a fraction of the reach: low enough to meet an object that touches the plane in one point
 /// close to that point.
 const HEIGHT: f64 = 0.01;
-/// Length of the rays, as a fraction of the distance to the edge: what is beyond is the wall at the edge, not an object in front of it.
+/// Length of the rays, as a fraction of the distance to the edge: a longer ray could hit a wall along the edge, which hides nothing.
 const WHOLE: f64 = 0.999;
 
 /// A star-shaped polygon around a point of a plane, all of it visible from the point.
@@ -38,7 +38,7 @@ pub(in crate::transport) struct VisibilityQuery<'a> {
     pub(in crate::transport) normal: DVec3,
     /// Radius of the disc that the polygon must cover, scene units.
     pub(in crate::transport) reach: f64,
-    /// [`diamond_angle`] of the first direction, varied so that the corners do not always lie in the same directions.
+    /// [`diamond_angle`] of the first direction, random so that the corners do not always lie in the same directions.
     pub(in crate::transport) turn: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What the camera pass and the gather pass found, pixel by pixel: in one band of rows, and on the whole film.
+//! Results of the camera pass and the gather pass by pixel: of one band of rows, and of the whole film.
 
 use super::camera::CameraBatch;
 use super::caustic_photons::Splat;
@@ -27,17 +27,17 @@ pub struct Band {
 /// One iteration's contribution to the film.
 #[derive(Clone, Debug)]
 pub struct Contribution {
-    /// Radiance from photons, for each pixel.
+    /// Radiance from photons, for each pixel of the film, row by row.
     pub photons: Vec<Rgb>,
-    /// Samples of emission and direct light, for each pixel.
+    /// Samples of emission and direct light, for each pixel of the film.
     pub samples: Vec<PixelSamples>,
-    /// Bandwidth differences, for each pixel.
+    /// Bandwidth differences, for each pixel of the film; 0 where not measured.
     pub differences: Vec<BandwidthDifference>,
 }
 
 impl Band {
-    /// Puts together what the passes found in some rows: visible points and the light at them. Light that a directly seen Phong lobe
-    /// shows goes to the lobe's sample where neighbours reuse it.
+    /// Adds up the light of each pixel of some rows; `gathered` holds the light at each visible point of `seen`, in the order of the points.
+    /// Light that a directly seen Phong lobe shows goes to the lobe's sample where neighbours reuse it.
     pub fn new(
         world: &World,
         plan: &Plan,
@@ -63,7 +63,8 @@ impl Band {
 }
 
 impl Contribution {
-    /// Puts together the bands of an iteration, in their order, for a film of this width, and adds the splats.
+    /// Joins the bands of an iteration, from the top of the film down, for a film of this width (pixels), reuses their lobe samples among
+    /// neighbours, and adds the splats.
     pub fn new(bands: &[Band], splats: &[Splat], width: u32) -> Self {
         let ((mut photons, samples), differences) = rayon::join(
             || {

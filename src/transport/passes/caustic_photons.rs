@@ -19,12 +19,12 @@ use rayon::prelude::*;
 /// Fraction of the emitted flux below which a branch ends at random.
 const WEAK_BRANCH: f32 = 0.03;
 
-/// A photon's light in a pixel.
+/// Light that a caustic photon adds to the pixel that sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Splat {
     /// Index of the pixel, row by row from the top.
     pub pixel: u32,
-    /// Radiance, averaged over the pixel.
+    /// Radiance in the mean over the pixel, W per steradian and square scene unit.
     pub radiance: Rgb,
 }
 
@@ -33,13 +33,14 @@ pub struct Splat {
 pub struct CausticPhotons {
     /// Photons for the map; empty where no density estimate needs them.
     pub photons: Vec<Photon>,
-    /// Light for the film; none in pixels whose density estimates find directly seen caustics.
+    /// Light for the film. Pixels that gather directly seen caustics get none.
     pub splats: Vec<Splat>,
     /// Work done.
     pub counters: Counters,
 }
 
-/// The caustic photons of one iteration, in the order of their paths; `None` when cancelled.
+/// The caustic photons of iteration `iteration` (from 1), in the order of their paths; `None` when cancelled. Empty for a plan without
+/// caustics.
 pub fn caustic_photon_pass(
     world: &World,
     plan: &Plan,

@@ -21,16 +21,17 @@ use arrayvec::ArrayVec;
 /// Visible points between two checks whether the pass was cancelled.
 const POINTS_PER_BLOCK: usize = 1024;
 
-/// Light at a visible point.
+/// Light that photons bring to a visible point.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Gathered {
     /// Radiance that the point adds to its pixel.
     pub radiance: Rgb,
-    /// The difference of this radiance in wider discs; 0 where it is not measured.
+    /// The bandwidth difference of this radiance; 0 where it is not measured.
     pub difference: BandwidthDifference,
 }
 
-/// The light at each visible point, in their order, with the work done; `None` when cancelled.
+/// The light at each visible point of a batch, in the order of the points, and the work done; `None` when cancelled. `iteration` counts
+/// from 1.
 pub fn gather(
     world: &World,
     plan: &Plan,
@@ -66,7 +67,7 @@ pub fn gather(
 }
 
 simd_dispatch! {
-    /// Appends the irradiance of interreflection at the points that gather it for their neighbours, too.
+    /// Appends the irradiance of interreflection at the points with the indices `gathering`, whose neighbours take it, too.
     fn irradiance_block(
         l: impl Lanes,
         gatherer: &Gatherer,
@@ -246,8 +247,8 @@ impl Gatherer<'_> {
         Disc::new(self.world, point, polygon, radius, self.plan.corrects_edges())
     }
 
-    /// The radiance that a point adds to its pixel with the photons of a map. In Phong lobes camera paths find the rest: all light but
-    /// caustics and the photons of the glossy map.
+    /// The radiance that a point adds to its pixel with the photons of a map. A Phong lobe reflects photons of the caustic and the glossy map
+    /// alone: camera paths find all other light in it.
     #[inline(always)]
     fn radiance<L: Lanes>(
         &self,

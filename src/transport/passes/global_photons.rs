@@ -9,7 +9,8 @@ use crate::transport::plan::Plan;
 use crate::world::World;
 use rayon::prelude::*;
 
-/// The photons of one iteration, in the order of their paths; `None` when cancelled.
+/// The photons of interreflection of iteration `iteration` (from 1), in the order of their paths; `None` when cancelled. Empty for a plan
+/// without interreflection.
 pub fn global_photon_pass(
     world: &World,
     plan: &Plan,

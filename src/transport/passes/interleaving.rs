@@ -9,10 +9,10 @@ use crate::transport::points::VisiblePoint;
 /// Greatest distance between a point and a neighbour that takes its irradiance, in radii of the point's disc: the blur that this adds
 /// is small beside that of the disc.
 const MAX_DISTANCE: f64 = 0.25;
-/// The least cosine between the normals of such points: 2.5 degrees.
+/// The least cosine between the normals of a point and of the neighbour that takes its irradiance: 2.5 degrees.
 const LEAST_COS: f32 = 0.999;
 
-/// Which points gather irradiance for others.
+/// The points that gather irradiance, and the points that take it from them.
 #[derive(Debug, Default)]
 pub(super) struct Interleaving {
     /// Indices of the points that gather for themselves and for others, in rising order.
@@ -27,7 +27,8 @@ impl Interleaving {
         Self { gathering: Vec::new(), source: vec![None; points] }
     }
 
-    /// For visible points in the order of their pixels; `radius` returns the radius of a point's disc, scene units.
+    /// The assignment for visible points, of which the points of a pixel are adjacent; `radius` returns the radius of a point's disc, scene
+    /// units.
     pub(super) fn new(grid: InterleavedGrid, points: &[VisiblePoint], radius: impl Fn(&VisiblePoint) -> f64) -> Self {
         let first = points.iter().map(|point| point.pixel).min().unwrap_or(0);
         let last = points.iter().map(|point| point.pixel).max().unwrap_or(0);

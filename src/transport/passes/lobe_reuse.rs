@@ -1,7 +1,7 @@
-//! Spatial reuse of Phong lobe samples. In each iteration one random camera path from each pixel samples what its lobe shows. The lobes
-//! of neighbours show much the same, so each pixel takes the mean over its neighbours' samples. Neighbours are nearer than the lobe
-//! blurs even the nearest object, and have similar normals. Their distance shrinks from iteration to iteration as the discs of density
-//! estimates do, so that the added blur vanishes.
+//! Spatial reuse of Phong lobe samples. In each iteration one random camera path of each pixel samples the light in its lobe. The lobes of
+//! neighbours show similar light, so each pixel takes the mean over its neighbours' samples. Neighbours have similar normals, and are
+//! nearer than the distance over which the lobe blurs the nearest object. The greatest distance of a neighbour shrinks with the
+//! iterations, so that the added blur vanishes.
 
 use crate::math::Rgb;
 use crate::transport::pass::Rows;
@@ -27,7 +27,7 @@ pub struct LobeSample {
     tag: u32,
     /// Greatest distance of a neighbour, scene units.
     reach: f32,
-    /// The same distance in pixels, for a surface that faces the camera.
+    /// `reach` in pixels, for a surface that faces the camera.
     window: u32,
 }
 
@@ -69,8 +69,8 @@ fn lobe_sample(world: &World, plan: &Plan, point: &VisiblePoint, iteration: u64)
     })
 }
 
-/// Adds to each pixel of a film of this width the mean over its own lobe sample and those of its neighbours. The samples come in bands
-/// of whole rows.
+/// Adds to each pixel of a film of this width the mean over the lobe samples of the pixel and its neighbours. The samples come in bands of
+/// whole rows.
 pub(super) fn reuse_lobes<'a>(bands: impl Iterator<Item = &'a [Option<LobeSample>]>, width: u32, film: &mut [Rgb]) {
     let rows: Vec<_> = bands.flat_map(|lobes| lobes.chunks(width as usize)).collect();
     film.par_chunks_mut(width as usize).zip(0..rows.len()).for_each(|(film, row)| {

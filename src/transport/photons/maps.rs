@@ -1,4 +1,4 @@
-//! The photon maps of an iteration, one for each kind of light that differs in sharpness.
+//! The photon maps of an iteration: light of different sharpness needs different radii, so each kind has a map of its own.
 
 use super::photon::Photon;
 use super::photon_map::PhotonMap;
@@ -18,7 +18,8 @@ pub struct Maps {
 }
 
 impl Maps {
-    /// Builds the maps of an iteration; those of interreflection, the largest, beside the others.
+    /// Builds the maps of an iteration from its photons, the second argument in the order global, indirect caustic, glossy. The global map,
+    /// the largest, is built in parallel to the other three.
     pub fn build(caustic: &[Photon], [global, indirect_caustic, glossy]: [&[Photon]; 3]) -> Self {
         let small = [caustic, indirect_caustic, glossy];
         let (global, [caustic, indirect_caustic, glossy]) =
@@ -69,7 +70,7 @@ impl MapKind {
 pub struct PerMap<T>([T; 4]);
 
 impl<T> PerMap<T> {
-    /// The values of a function.
+    /// The value of a function for each map.
     pub fn from_fn(of: impl FnMut(MapKind) -> T) -> Self {
         Self(MapKind::ALL.map(of))
     }

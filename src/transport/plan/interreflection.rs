@@ -39,7 +39,7 @@ pub(super) fn plan(world: &World, notes: &mut Notes) -> Vec<u64> {
     allocate(weights(world, notes), total)
 }
 
-/// Photon paths that may bring light to Phong lobes, by light: those for interreflection; empty without a lobe that gathers photons.
+/// Photon paths that may bring light to Phong lobes, by light: the paths of interreflection; empty without a lobe that gathers photons.
 pub(super) fn plan_gloss(world: &World, global_paths: &[u64], notes: &mut Notes) -> Vec<u64> {
     const ITEM: PlanItem = PlanItem::GlossyPhotons;
     let glossy = (0..world.surfaces.len() as u32).filter(|&p| world.gathers_in_lobes(p)).count();

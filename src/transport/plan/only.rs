@@ -10,9 +10,9 @@ pub enum Component {
     /// Emission, the background and direct light: all light that camera paths find. Most light in Phong lobes belongs to it;
     /// [`GlossyMis`](super::super::GlossyMis) gives the rest to interreflection, more of it for more photons per pixel.
     Direct,
-    /// Caustics, also those seen in mirrors and through glass.
+    /// Caustics, also caustics that the camera sees in mirrors, through glass or in Phong lobes.
     Caustics,
-    /// Light that diffuse or glossy surfaces scattered at least twice.
+    /// Light that diffuse or glossy surfaces scattered at least twice, without the part in Phong lobes that belongs to `Direct`.
     Interreflection,
 }
 

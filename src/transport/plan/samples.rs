@@ -48,7 +48,7 @@ impl Plan {
         before(iteration)..before(iteration + 1)
     }
 
-    /// The weight of the mean of a pixel's samples of an iteration among those of all iterations.
+    /// The weight of an iteration in the mean over a pixel's camera samples of all iterations.
     #[inline]
     pub(in crate::transport) fn samples_weight(&self, pixel: u32, iteration: u64) -> f32 {
         match &self.samples {

@@ -2,10 +2,10 @@
 //! are gathered with the lobe.
 //!
 //! Camera paths suit a lobe that shows an even surrounding, but seldom meet a small bright spot, such as the ceiling beside a lamp,
-//! and leave a firefly where they do. Photons leave such a spot in crowds. So light that exactly one surface scattered on the way
-//! from its light to the lobe is divided path by path: camera paths get the MIS weight `min(1, density of camera paths / density of
-//! photons)`, photons the rest \[Veach97, GKDS12\]. All other light belongs to the camera paths, and so does light in textured
-//! lobes: a density estimate reads the texture at one point of the pixel, which would be noise.
+//! and leave a firefly where they do. Many photons leave such a spot. So light that exactly one surface scattered on the way from its
+//! light to the lobe is divided path by path: camera paths get the MIS weight `min(1, 10 density of camera paths / density of photons)`,
+//! photons the rest \[Veach97, GKDS12\]. All other light belongs to the camera paths, and so does light in textured lobes: a density
+//! estimate reads the texture at one point of the pixel, which would be noise.
 
 use super::vertex::Vertex;
 use crate::world::{Camera, Lobe, Material, World};
@@ -20,7 +20,7 @@ const PHOTONS_PER_PATH: f64 = 10.0;
 /// with 80, 1.03 with 300.
 const MOST_EXPONENT: f64 = 100.0;
 
-/// The MIS weights between camera paths and photons for light in Phong lobes.
+/// The MIS weights between camera paths and photons for light in Phong lobes. They are equal in all iterations.
 #[derive(Clone, Debug)]
 pub struct GlossyMis {
     /// Photon paths of a full iteration, by light; empty where camera paths find all light.
@@ -67,7 +67,7 @@ impl GlossyMis {
         Self { paths, camera, radius }
     }
 
-    /// The weights of a draft with this camera; `paths` gives its numbers of photon paths for those of a full iteration.
+    /// The weights of a draft with this camera; `paths` maps the numbers of photon paths of a full iteration to the numbers of the draft.
     pub(in crate::transport) fn draft(&self, camera: Camera, paths: impl Fn(&[u64]) -> Vec<u64>, radius: f64) -> Self {
         Self::new(camera, paths(&self.paths), radius)
     }

@@ -2,7 +2,7 @@ use crate::math::Rgb;
 use crate::world::Scattering;
 use glam::{DVec2, Vec3};
 
-/// A point that the camera sees, directly or over mirrors, through glass and in Phong lobes, and where photons are gathered.
+/// A point where photons are gathered, and which the camera sees directly, in mirrors, through glass or in Phong lobes.
 #[derive(Clone, Copy, Debug)]
 pub struct VisiblePoint {
     /// Index of the pixel, row by row from the top of the film.
@@ -33,9 +33,9 @@ pub struct VisiblePoint {
     pub photon_bounces: u32,
     /// Mean albedo over the pixel's paths that met the same surface first.
     pub mean_albedo: Rgb,
-    /// Greatest distance to a point where another of these paths met the surface, scene units.
+    /// Greatest distance to a point where another path of the pixel met the same surface first, scene units.
     pub spread: f32,
-    /// Index of the first facet among those of the batch.
+    /// Index of the point's first facet in the list of facets that the camera pass returns.
     pub first_facet: u32,
     /// Number of facets; 0 on surfaces without relief.
     pub facets: u32,
@@ -47,7 +47,7 @@ pub struct VisiblePoint {
     pub blur: f32,
 }
 
-/// Shading normal and albedo at one of the points where a pixel's paths met a surface with a relief map.
+/// Shading normal and albedo where one camera path of a pixel met a surface with a normal or height map.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet {
     /// Shading unit normal on the seen side.
@@ -60,7 +60,7 @@ pub struct Facet {
     pub position: Vec3,
 }
 
-/// Distances from a point to other objects, scene units, as far as they matter for density estimates.
+/// Distances from a point to other objects, scene units; infinite beyond the distances at which an object matters for density estimates.
 #[derive(Clone, Copy, Debug)]
 pub struct Clearance {
     /// To the nearest object; 0 on a patch, whose own curves are near.

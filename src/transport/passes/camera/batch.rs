@@ -5,11 +5,12 @@ use crate::transport::points::{Facet, VisiblePoint};
 /// What the camera pass finds in some rows of the film.
 #[derive(Clone, Debug, Default)]
 pub struct CameraBatch {
-    /// Points where photons are to be gathered, tile by tile.
+    /// Points where photons are to be gathered, tile by tile. The points of a pixel are adjacent.
     pub visible_points: Vec<VisiblePoint>,
-    /// The facets of visible points on surfaces with relief: one density estimate serves all facets of a point.
+    /// Facets of visible points on surfaces with relief, which [`VisiblePoint::first_facet`] and [`VisiblePoint::facets`] index. One
+    /// density estimate serves all facets of a point.
     pub facets: Vec<Facet>,
-    /// Samples of emitted and direct light, for each pixel of the rows.
+    /// Samples of emission and direct light: one value for each pixel of the rows, row by row.
     pub samples: Vec<PixelSamples>,
     /// Work done.
     pub counters: Counters,

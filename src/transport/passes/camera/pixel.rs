@@ -37,7 +37,7 @@ impl Pixel {
     }
 
     /// Completes the visible points of the pixel, from `first` on, and adds their facets. Where all paths met one surface first, its albedo
-    /// and relief at all of their first vertices count: those of one point in the pixel would be noise.
+    /// and relief at all of their first vertices count: albedo and relief at one point of the pixel would be noise.
     #[inline]
     pub(super) fn complete(
         &self,

@@ -14,11 +14,11 @@ use std::ops::Range;
 
 /// Samples of a pixel that gather photons where the pixel shows different surfaces.
 const SAMPLES_OF_EDGE: usize = 4;
-/// Columns of a tile, whose rows are those of the pass.
+/// Columns of a tile; it has all rows of the pass.
 const TILE: u32 = 16;
 
-/// The samples of an iteration for every pixel of some rows; `None` when cancelled. The pass goes tile by tile: successive visible
-/// points are near each other, and so are their photons in memory.
+/// The camera samples of iteration `iteration` (from 1) for every pixel of some rows, and the visible points that they leave; `None` when
+/// cancelled. The pass goes tile by tile: successive visible points are near each other, and so are their photons in memory.
 pub fn camera_pass(
     world: &World,
     plan: &Plan,

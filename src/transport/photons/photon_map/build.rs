@@ -39,7 +39,7 @@ impl PhotonMap {
         map
     }
 
-    /// Appends a subtree as a child of the root: moves the indices of its nodes, and marks those of its blocks.
+    /// Appends a subtree as a child of the root: shifts the indices of its nodes, and marks the indices of its blocks with the subtree.
     fn append(&mut self, slot: usize, mut root: Child, subtree: Subtree) {
         let (nodes, mark) = (self.nodes.len() as u32, (slot as u32) << BLOCK_INDEX_BITS);
         let moved = |first: u32, blocks: u32| if blocks == 0 { first + nodes } else { first | mark };

@@ -33,7 +33,7 @@ impl PhotonMap {
         self.len == 0
     }
 
-    /// The sum of flux times the kernel over the photons of each query's disc, W.
+    /// The sum of flux times the kernel over the photons of each query's disc, W; one value for each query, in their order.
     pub fn sums(&self, queries: &[Query]) -> Vec<Rgb> {
         sums(self, queries)
     }
@@ -218,7 +218,7 @@ impl PhotonMap {
         whole
     }
 
-    /// Size on the heap, bytes.
+    /// Memory on the heap, bytes.
     pub fn memory_bytes(&self) -> usize {
         self.nodes.capacity() * (size_of::<Node>() + size_of::<Moments>())
             + self.blocks.iter().map(|part| part.capacity() * size_of::<PhotonBlock>()).sum::<usize>()
