@@ -66,7 +66,7 @@ fn render_band(
 }
 
 impl Work {
-    /// Adds the work of bands, which all threads did at once: each counts for its share of the wall-clock time.
+    /// Adds the work of bands. All threads rendered bands at once, so a band adds its seconds over the number of threads.
     fn add_bands(&mut self, bands: &[Self]) {
         let threads = rayon::current_num_threads() as f64;
         for band in bands {

@@ -1,8 +1,8 @@
 //! Bandwidth selection: radii of density estimates by the bias and variance that iterations measured.
 //!
 //! A wider disc over the same photons tells the bias. With the Epanechnikov kernel, discs of the radii `r` and `w r`
-//! give estimates that differ by `(w^2 - 1) b` in the mean, where `b ~ r^2` is the bias of the narrower disc, and the
-//! variance of this difference is `(1 - 1 / w^2)^2 v`, where `v ~ 1 / r^2` is the variance of the narrower disc. The squared
+//! give estimates whose difference has the mean `(w^2 - 1) b` and the variance `(1 - 1 / w^2)^2 v`, where `b ~ r^2` is the bias
+//! and `v ~ 1 / r^2` the variance of the estimate in the narrower disc. The squared
 //! error of a mean of `N` iterations with the radius `x r` is `x^4 b^2 + v / (N x^2)`; it is least where
 //! `x^6 = v / (2 N b^2)` (compare \[KD13\], who measure the Laplacian).
 
@@ -394,7 +394,7 @@ mod tests {
         assert!(least(13) < 0.6 && least(27) < 0.6 && least(4) > 0.8, "{} {} {}", least(13), least(27), least(4));
     }
 
-    /// Places in the pixel that differ are no noise, which a wider disc would make less.
+    /// Differences between positions in a pixel are not noise: a wider disc does not reduce them.
     #[test]
     fn what_differs_by_places_in_the_pixel_shrinks_discs_of_caustics() {
         let mut differences = measured(16, 0.0, 1.0);

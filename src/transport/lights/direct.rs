@@ -9,14 +9,14 @@ use crate::transport::points::{GlossyMis, MisVertex, Vertex, ViewingLobe, bsdf};
 use crate::world::{Light, World};
 use glam::DVec3;
 
-/// What next event estimation reads.
+/// The input of next event estimation.
 #[derive(Clone, Copy)]
 pub(in crate::transport) struct DirectLight<'a> {
     /// The scene with its lights.
     pub(in crate::transport) world: &'a World,
     /// Draws lights where there are many.
     pub(in crate::transport) light_sampler: &'a LightSampler,
-    /// Weights of what Phong lobes show.
+    /// MIS weights of light in Phong lobes.
     pub(in crate::transport) glossy_mis: &'a GlossyMis,
 }
 

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 /// The least cosine between the normals of neighbours: 2.5 degrees.
 const LEAST_COS: f32 = 0.999;
 
-/// A pixel's sample of what its Phong lobe shows.
+/// A pixel's sample of the light in its Phong lobe.
 #[derive(Clone, Copy, Debug)]
 pub struct LobeSample {
     /// Radiance from photons at the points that the lobe shows, as the pixel sees it.

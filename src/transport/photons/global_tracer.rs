@@ -24,7 +24,7 @@ pub struct GlobalPhotons {
     pub counters: Counters,
 }
 
-/// Traces photon paths and stores what they leave.
+/// Traces photon paths and stores their photons.
 pub(in crate::transport) struct GlobalPhotonTracer<'a> {
     world: &'a World,
     glossy_mis: Option<&'a GlossyMis>,

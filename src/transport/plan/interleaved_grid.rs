@@ -1,6 +1,6 @@
-//! Interleaved sampling of interreflection: the film in squares, in each of which one pixel gathers for its neighbours. Which pixel
-//! gathers, and the position of the squares, change from iteration to iteration, evenly to all sides: in the mean this blurs by less
-//! than a pixel and shifts nothing (compare \[KellerHeidrich01\]).
+//! Interleaved sampling of interreflection (compare \[KellerHeidrich01\]): in each square of the film, one pixel gathers for its
+//! neighbours. The gathering pixel and the position of the squares change from iteration to iteration, evenly to all sides: in the mean
+//! this blurs by less than a pixel and shifts nothing.
 
 use crate::transport::pass::Rows;
 use crate::transport::points::VisiblePoint;

@@ -1,5 +1,5 @@
-//! Importance of lights: the fraction of a light's photon paths that matters for what the camera sees, low for a lamp in a closed room
-//! next door. A few probe paths estimate it. The picture stays unbiased, because a light of low importance still emits some paths.
+//! Importance of lights: the fraction of a light's photon paths that reach what the camera may see, low for a lamp in a closed room next
+//! door. A few probe paths estimate it. The picture stays unbiased, because a light of low importance still emits some paths.
 
 use crate::geometry::Primitive;
 use crate::math::{Ray, Sampler, Stream};
@@ -16,7 +16,7 @@ const LEAST_PATHS: u64 = 16;
 const PATHS_OF_ALL: u64 = 16_384;
 /// Added to the number of paths that matter, so that the importance is never 0 by chance.
 const UNSEEN_PATHS: f64 = 0.0625;
-/// Most mirrors, glasses and glossy surfaces through which probe paths may matter.
+/// Most mirrors, glasses and glossy surfaces in which a probe path may be seen.
 const MOST_MIRRORS: usize = 8;
 
 /// The fraction of each light's paths that arrive where the camera may see them, directly or in mirrors; above 0. Always 1 for a single

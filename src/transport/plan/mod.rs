@@ -1,7 +1,7 @@
-//! The plan: what a scene needs, decided before rendering, and why the rest is skipped.
+//! The plan of a scene: the components that it needs and how they are rendered, decided before rendering, with the reasons.
 //!
-//! A plan is made *new* from the world. A *draft* of it serves the first picture after an edit. It is *refined* after iterations 4, 8,
-//! 16, ... by what they measured. A plan for *only* one component does nothing for the other components.
+//! A plan is made *new* from the world. A *draft* of it serves the first picture after an edit. After iterations 4, 8, 16, ... it is
+//! *refined* by their measurements. A plan for *only* one component does no work for the other components.
 //!
 //! | file | holds |
 //! |---|---|
@@ -9,7 +9,7 @@
 //! | `paths` | how many paths leave each light |
 //! | `light_importance` | how much of a light's paths matters for the camera |
 //! | `radii` | radii of density estimates after one full iteration |
-//! | `interleaved_grid` | which pixels gather for their neighbours |
+//! | `interleaved_grid` | the pixels that gather for their neighbours |
 //! | `render_plan` | the plan itself |
 //! | `caustics` | whether there are caustics; photons gathered or splatted |
 //! | `interreflection` | whether there is interreflection |

@@ -18,7 +18,7 @@ use crate::world::World;
 /// Greatest radius, except for the least ones of [`Radii`], over the distance to the next object: its light changes
 /// within a fraction of the distance \[Ward88\].
 const MAX_CLEARANCE_FRACTION: f64 = 0.5;
-/// Least radius in a Phong lobe over the radius without one: the lobe blurs what it shows, so discs may be noisier. Measured: it takes
+/// Least radius in a Phong lobe over the radius without one: the lobe averages over several discs, so each disc may be noisier. Measured: it takes
 /// a tenth off the error at equal time of a glossy floor, a fifth in a room of gloss.
 const LEAST_LOBE_FRACTION: f64 = 0.3;
 /// Greatest radius on a sphere over the sphere's radius: the disc must stay nearly flat.
@@ -79,8 +79,8 @@ impl Radii {
         by_any.min((MAX_CLEARANCE_FRACTION * clearance.standing).max(self.least_standing * footprint))
     }
 
-    /// A radius for caustics, limited near other objects: a wider disc could reach over several of them and their shadows, and its bias
-    /// would not show their differences.
+    /// A radius for caustics, limited near other objects: a wider disc could reach over several objects and their shadows, and a
+    /// bandwidth difference would not show the bias.
     #[inline]
     fn limited_caustic(&self, radius: f64, footprint: f64, clearance: Clearance) -> f64 {
         radius.min((MAX_CLEARANCE_FRACTION * clearance.any).max(self.least_caustic * footprint))
@@ -145,7 +145,7 @@ impl Plan {
     }
 }
 
-/// A radius where a Phong lobe blurs what the camera sees over this distance, both scene units.
+/// The radius at a point that a Phong lobe blurs over the distance `blur`, for the radius without a lobe; all in scene units.
 #[inline]
 fn in_lobe(radius: f64, blur: f32) -> f64 {
     radius * (radius / (radius + f64::from(blur))).max(LEAST_LOBE_FRACTION)

@@ -1,4 +1,4 @@
-//! The plan refined by what iterations measured.
+//! The plan refined by the measurements of iterations.
 
 use super::render_plan::Plan;
 use crate::transport::density::sample_allocation::SampleAllocation;

@@ -8,8 +8,8 @@ use crate::transport::density::schedule;
 use crate::transport::pass::Rows;
 use std::ops::Range;
 
-/// Samples of a pixel in a full iteration before the first refinement. One of them gathers photons, which is most of the work; the
-/// others find direct light, whose edges need them.
+/// Samples of a pixel in a full iteration before the first refinement. All samples find direct light, whose edges need them. One sample
+/// gathers photons, which is most of the work.
 const CAMERA_SAMPLES: f64 = 4.0;
 
 impl Plan {

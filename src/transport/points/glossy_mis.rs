@@ -30,7 +30,7 @@ pub struct GlossyMis {
     radius: f64,
 }
 
-/// The Phong lobe through which a camera path sees what follows.
+/// The last Phong lobe of a camera path, through which the camera sees the following vertices.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::transport) struct ViewingLobe {
     /// Density of camera paths that photons must exceed to get any weight, per area and steradian at the next vertex.
@@ -96,7 +96,8 @@ impl GlossyMis {
         Some(ViewingLobe { density, width: lobe_width(exponent), length })
     }
 
-    /// Density of camera paths that photons must exceed at what a lobe shows in the direction `wi`.
+    /// Density of camera paths, per area and steradian, that photons must exceed to get any weight, for a lobe at `position` that shows the
+    /// direction `wi`.
     fn camera_density(&self, position: DVec3, n_side: DVec3, exponent: f64, wi: DVec3) -> f64 {
         // Photons do not know in which mirrors they will be seen, so the footprint is that of the straight distance.
         let radius = self.radius * self.camera.footprint(self.camera.position.distance(position));
@@ -137,7 +138,7 @@ impl World {
 }
 
 impl ViewingLobe {
-    /// About the distance, scene units, over which the lobe blurs what a camera path of this length sees through it.
+    /// About the distance, scene units, over which the lobe blurs a point at the end of a camera path of this length.
     #[inline]
     pub(in crate::transport) fn blur(&self, length: f64) -> f64 {
         self.width * (length - self.length)

@@ -3,7 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `bsdf` | scattering functions: Lambert, Phong, Fresnel |
-//! | `surfaces` | what a primitive's surface does with light |
+//! | `surfaces` | how a primitive's surface scatters light |
 //! | `medium` | the glass around a path |
 //! | `vertex` | a vertex of a light or camera path |
 //! | `specular` | the scattering event at mirrors and glass; Russian roulette |

@@ -43,7 +43,7 @@ pub struct VisiblePoint {
     pub seen_directly: bool,
     /// Whether the pixel's paths met different surfaces first.
     pub on_an_edge: bool,
-    /// Distance over which a Phong lobe blurs what the camera sees here, scene units; 0 without a lobe in between.
+    /// Distance over which the viewing lobe blurs the point, scene units; 0 without a lobe.
     pub blur: f32,
 }
 

@@ -2,7 +2,7 @@ use crate::transport::counters::Counters;
 use crate::transport::density::PixelSamples;
 use crate::transport::points::{Facet, VisiblePoint};
 
-/// What the camera pass finds in some rows of the film.
+/// Camera samples and visible points of some rows of the film.
 #[derive(Clone, Debug, Default)]
 pub struct CameraBatch {
     /// Points where photons are to be gathered, tile by tile. The points of a pixel are adjacent.

@@ -1,9 +1,9 @@
-//! The camera pass: camera paths to what emits, to direct light, and to the visible points where photons will be gathered.
+//! The camera pass: camera paths find emission, direct light, and the visible points where photons will be gathered.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `batch` | what the pass finds |
-//! | `pixel` | what the paths of one pixel find |
+//! | `batch` | the result of the pass |
+//! | `pixel` | first vertices of the paths of one pixel |
 //! | `clearance` | distances from a visible point to other objects |
 //! | `tracer` | one camera path, which branches at glass |
 //! | `sampling` | all samples of a pixel; the pass |

@@ -3,7 +3,7 @@ use crate::transport::density::sample_allocation::MOST_SAMPLES;
 use crate::transport::points::{Facet, VisiblePoint, bsdf};
 use arrayvec::ArrayVec;
 
-/// What the paths of one pixel find at their first vertices.
+/// The first vertices of the paths of one pixel.
 pub(super) struct Pixel {
     /// Row by row from the top of the film.
     pub(super) index: u32,

@@ -53,14 +53,14 @@ pub fn camera_pass(
     Some(tracer.batch)
 }
 
-/// The first ray of a camera path and what it met.
+/// The first ray of a camera path and its nearest hit.
 struct FirstRay {
     sampler: Sampler,
     ray: Ray,
     hit: Option<Hit>,
 }
 
-/// The first rays of all samples of an iteration for some pixels of a row, pixel by pixel. Packets of rays go down the trees together.
+/// The first rays of all samples of an iteration for some pixels of a row, pixel by pixel, traced in packets.
 fn trace_first_rays(
     world: &World,
     plan: &Plan,
@@ -93,8 +93,8 @@ fn trace_first_rays(
     first_rays
 }
 
-/// All samples of an iteration for one pixel. Where they meet one surface, one of them leaves visible points for all; at an edge
-/// several do. Density estimates at visible points are most of the work.
+/// All samples of an iteration for one pixel. Where all samples meet one surface, one sample leaves visible points; at an edge several
+/// samples do. Density estimates at visible points are most of the work.
 fn sample_pixel(
     tracer: &mut CameraTracer,
     plan: &Plan,

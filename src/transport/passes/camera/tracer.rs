@@ -15,7 +15,7 @@ use crate::world::{Lobe, Surface, SurfacePoint, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3};
 
-/// Interfaces of a path at which both sides are followed; at further ones a random side is.
+/// Interfaces of a path at which both sides are followed; at further interfaces a random side is.
 const FOLLOWED_SPLITS: u32 = 2;
 /// Throughput below which a branch ends at random.
 const WEAK_BRANCH: f32 = 0.02;

@@ -8,7 +8,7 @@
 //! | `node` | nodes, moments and leaves in structure-of-arrays form |
 //! | `morton` | sorting along a space-filling curve |
 //! | `build` | construction |
-//! | `query` | what a density estimate looks for, in every SIMD lane |
+//! | `query` | the disc of a density estimate, in every SIMD lane |
 //! | `map` | the map and its sums over discs |
 
 mod build;

@@ -1,4 +1,4 @@
-//! What a density estimate looks for, and the tests of boxes and photons against it, eight at a time.
+//! The disc of a density estimate, and the tests of boxes and photons against the disc, eight at a time.
 
 use super::node::{Columns, Moments, Node, PhotonBlock};
 use crate::math::{Lanes, Rgb};
