@@ -99,7 +99,7 @@
 //!   it leaves has to be small against the scene and large against rounding. Photons and visible points are stored in `f32`,
 //!   relative to the middle of the scene.
 //! - Only finite values enter the film; dropped values are counted and shown.
-//! - Every path of light belongs to one component, and one technique, or the MIS weights of several, finds it.
+//! - Every path of light counts once: one technique finds it, or several techniques share it by MIS weights.
 //!
 //! # Glossary
 //!
