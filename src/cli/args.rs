@@ -140,7 +140,7 @@ pub(super) struct BenchArguments {
     /// Plot the errors over time, on logarithmic axes
     #[arg(long, value_name = "OUT.png")]
     pub(super) plot: Option<PathBuf>,
-    /// Measure all runs of this file instead of SCENE: each [[run]] has name, scene and seconds; optionally seeds, only, mask,
+    /// Measure all runs of this file instead of SCENE: each run has name, scene and seconds; optionally seeds, only, mask,
     /// others (a relMSE to compare with); and either reference, optionally with second_reference, or reference_seconds
     #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["scene", "reference", "second_reference", "mask", "seconds", "seeds", "only", "csv", "plot"])]
     pub(super) suite: Option<PathBuf>,

@@ -2,7 +2,7 @@ use super::table_error::TableError;
 use crate::geometry::bezier::ControlNet;
 use glam::DVec3;
 
-/// The named patches of a text: for each patch a line `patch NAME`, then 16 lines `x y z` for P[0][0], P[0][1] .. P[3][3], the
+/// The named patches of a text: for each patch a line `patch NAME`, then 16 lines `x y z` for `P[0][0]`, `P[0][1]`, ..., `P[3][3]`, the
 /// first index along u. Empty lines and lines that start with `#` are ignored.
 pub(super) fn read(text: &str) -> Result<Vec<(String, ControlNet)>, TableError> {
     let mut patches = Vec::new();

@@ -49,7 +49,7 @@ struct Piece {
     net: SoaNet,
     domain: Domain,
     depth: usize,
-    /// See [`bending`].
+    /// See [`bending()`].
     bending: [f64; 2],
     /// Indices of its halves, if it is cut.
     halves: Option<[usize; 2]>,
