@@ -14,6 +14,8 @@
 //! keeps it off its own surface, at any distance from the world's origin.
 
 mod aabb;
+#[cfg(test)]
+pub(crate) mod chi_square;
 pub mod float;
 pub mod lanes;
 pub mod octahedral;

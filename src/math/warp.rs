@@ -57,6 +57,34 @@ pub fn pdf_uniform_cone(one_minus_cos: f64) -> f64 {
 mod tests {
     use super::*;
 
+    use crate::math::Sampler;
+    use crate::math::chi_square::{assert_has_density, cap_direction, cap_solid_angle, cap_square};
+
+    /// A warp around +z against its density per steradian, in the cap of directions with at least this z.
+    fn assert_warps(what: &str, least_z: f64, warp: impl Fn(DVec2) -> DVec3, pdf: impl Fn(DVec3) -> f64) {
+        let sample = |sampler: &mut Sampler| cap_square(warp(sampler.next_2d()), least_z);
+        let density = |square| cap_solid_angle(least_z) * pdf(cap_direction(square, least_z));
+        assert_has_density(what, sample, density);
+    }
+
+    #[test]
+    fn samples_have_their_densities() {
+        assert_warps("hemisphere", 0.0, cosine_hemisphere, |d| d.z / PI);
+        assert_warps("sphere", -1.0, uniform_sphere, |_| 0.25 / PI);
+        for (exponent, least_z) in [(0.0, 0.0), (1.0, 0.0), (5.5, 0.0), (300.0, 0.97)] {
+            let warp = |u| cosine_power(u, exponent);
+            assert_warps("Phong lobe", least_z, warp, |d| pdf_cosine_power(d.z, exponent));
+        }
+        // All of a cone, and its inner half, which leaves draws outside.
+        for (one_minus_cos, shown) in [(0.4, 1.0), (1e-3, 1.0), (0.4, 0.5)] {
+            let warp = |u| uniform_cone(u, one_minus_cos);
+            assert_warps("cone", 1.0 - shown * one_minus_cos, warp, |_| pdf_uniform_cone(one_minus_cos));
+        }
+        let in_square = |sampler: &mut Sampler| Some(0.5 * (concentric_disc(sampler.next_2d()) + 1.0));
+        let disc = |p: DVec2| if (2.0 * p - 1.0).length() <= 1.0 { 4.0 / PI } else { 0.0 };
+        assert_has_density("disc", in_square, disc);
+    }
+
     fn grid() -> impl Iterator<Item = DVec2> {
         (0..128 * 128).map(|k| DVec2::new(f64::from(k % 128) + 0.5, f64::from(k / 128) + 0.5) / 128.0)
     }

@@ -36,6 +36,8 @@ mod passes;
 mod photons;
 mod plan;
 mod points;
+#[cfg(test)]
+mod testing;
 
 pub use counters::Counters;
 pub use density::{Bandwidth, BandwidthDifference, FilmStatistics, PixelSamples};

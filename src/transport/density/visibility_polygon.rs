@@ -134,24 +134,14 @@ fn at_diamond_angle(angle: f64) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Location, SceneFile};
     use crate::transport::density::kernel::Clipped;
-    use crate::world::prepare;
+    use crate::transport::testing::{self, quad};
 
     /// A floor of 2 x 2 about the origin, and screens that stand on it along x = 0.2 and along its edge x = 1.
     fn world() -> World {
-        let object = |name: &str, rest: &str| {
-            format!("[[object]]\nname = \"{name}\"\ntype = \"quad\"\nmaterial = \"m\"\n{rest}\n")
-        };
-        let text = [
-            "version = 1\n[camera]\nposition = [0, 5, 0]\ntarget = [0, 0, 0]\nup = [0, 0, -1]\nfov_y = 40\n".to_owned(),
-            "[[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]\n".to_owned(),
-            object("floor", "corner = [-1, 0, 1]\nedge_u = [2, 0, 0]\nedge_v = [0, 0, -2]"),
-            object("screen", "corner = [0.2, 0, -3]\nedge_u = [0, 0, 6]\nedge_v = [0, 1, 0]"),
-            object("wall", "corner = [1, 0, -3]\nedge_u = [0, 0, 6]\nedge_v = [0, 1, 0]"),
-        ];
-        let file = SceneFile::parse(&text.concat(), Location::Unsaved).expect("a scene");
-        prepare(&file.scene, &file.location, None).expect("a world")
+        let screen = |name, x| quad(name, [[x, 0.0, -3.0], [0.0, 0.0, 6.0], [0.0, 1.0, 0.0]], "grey");
+        let floor = quad("floor", [[-1.0, 0.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]], "grey");
+        testing::world(&[floor, screen("screen", 0.2), screen("wall", 1.0)].concat())
     }
 
     /// From the point of the floor at x, z = 0.

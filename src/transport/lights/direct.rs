@@ -148,3 +148,55 @@ pub(in crate::transport) fn pdf_light(light: &Light, from: DVec3, wi: DVec3, dis
         Light::Quad { quad, .. } => distance * distance / (wi.dot(n_light).abs() * quad.area()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Quad;
+    use crate::math::chi_square::assert_has_density;
+    use crate::math::{Stream, octahedral};
+    use crate::transport::testing;
+    use std::f64::consts::PI;
+
+    /// Directions over the sphere towards a light that fills much of it, against [`pdf_light`] where a ray in that direction meets it.
+    fn assert_samples(light: &Light, meet: impl Fn(&Ray) -> Option<(f64, DVec3)>) {
+        let world = testing::world("");
+        let from = DVec3::new(0.1, 0.2, -0.1);
+        let pdf =
+            |wi: DVec3| meet(&Ray::new(from, wi)).map_or(0.0, |(t, normal)| pdf_light(light, from, wi, t, normal));
+        let sample = |sampler: &mut Sampler| {
+            let LightSample { position, wi, weight, pdf: sampled } = sample_light(&world, light, from, sampler)?;
+            let (t, normal) = meet(&Ray::new(from, wi)).unwrap_or(((position - from).length(), -wi));
+            assert!(position.distance(from + t * wi) < 1e-6, "the position is where the ray arrives");
+            let sampled = sampled.expect("an area light");
+            assert!((sampled / pdf_light(light, from, wi, t, normal) - 1.0).abs() < 1e-6, "the density of the sample");
+            assert!((f64::from(weight.x) * sampled - 2.0).abs() < 1e-5, "radiance over density");
+            Some(octahedral::square_from_direction(wi))
+        };
+        let density = |square| 4.0 * PI * pdf(octahedral::direction_from_square(square));
+        assert_has_density(&format!("{light:?}"), sample, density);
+    }
+
+    #[test]
+    fn samples_of_area_lights_have_their_density() {
+        let radiance = Rgb::new(2.0, 1.0, 0.5);
+        let sphere = Sphere { center: DVec3::new(0.5, 1.0, -0.2), radius: 0.6 };
+        assert_samples(&Light::Sphere { sphere, radiance }, |ray| {
+            let t = sphere.intersect(ray)?;
+            Some((t, (ray.at(t) - sphere.center).normalize()))
+        });
+        // edge_u x edge_v points down, towards the point.
+        let quad = Quad::new(DVec3::new(-0.8, 0.9, -1.0), DVec3::new(2.0, 0.3, 0.0), DVec3::new(0.0, 0.1, 1.8));
+        assert_samples(&Light::Quad { quad, radiance }, |ray| Some((quad.intersect(ray)?.0, quad.normal())));
+    }
+
+    #[test]
+    fn a_quad_does_not_shine_backwards() {
+        let quad = Quad::new(DVec3::new(-0.5, 1.0, -0.5), DVec3::Z, DVec3::X);
+        let light = Light::Quad { quad, radiance: Rgb::ONE };
+        let mut sampler = Sampler::new(1, Stream::Test, 0, 0);
+        assert!(
+            quad.normal().y > 0.0 && sample_light(&testing::world(""), &light, DVec3::ZERO, &mut sampler).is_none()
+        );
+    }
+}

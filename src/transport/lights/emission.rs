@@ -77,3 +77,81 @@ pub(in crate::transport) fn density(light: &Light, light_point: DVec3, point: DV
     };
     per_steradian / distance_squared
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Quad, Sphere};
+    use crate::math::chi_square::{assert_has_density, cap_direction, cap_solid_angle, cap_square};
+
+    fn sphere() -> Light {
+        Light::Sphere { sphere: Sphere { center: DVec3::new(1.0, 2.0, 3.0), radius: 0.5 }, radiance: Rgb::splat(2.0) }
+    }
+
+    fn quad() -> Light {
+        let quad = Quad::new(DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.0, 2.0, 0.5), DVec3::new(0.0, 1.0, 3.0));
+        Light::Quad { quad, radiance: Rgb::new(1.0, 2.0, 3.0) }
+    }
+
+    /// Over the sphere of directions the paths of a point light have the density that [`density`] gives at distance 1.
+    #[test]
+    fn paths_leave_a_point_light_to_all_sides() {
+        let position = DVec3::new(3.0, -1.0, 2.0);
+        let light = Light::Point { position, intensity: Rgb::ONE };
+        let sample = |sampler: &mut Sampler| {
+            let emission = emit(&light, sampler);
+            assert_eq!((emission.origin, emission.flux), (position, light.power()));
+            Some(octahedral::square_from_direction(emission.direction))
+        };
+        let from_square = octahedral::direction_from_square;
+        assert_has_density("point", sample, |p| 4.0 * PI * density(&light, position, position + from_square(p)));
+    }
+
+    /// Directions about the normal at the origin, against [`density`] at distance 2, where paths are four times as far from each other.
+    #[test]
+    fn paths_leave_area_lights_by_the_cosine() {
+        for light in [sphere(), quad()] {
+            let basis_at = |origin: DVec3| match &light {
+                Light::Sphere { sphere, .. } => OrthonormalBasis::from_normal((origin - sphere.center).normalize()),
+                Light::Quad { quad, .. } => OrthonormalBasis::from_normal(quad.normal()),
+                Light::Point { .. } => unreachable!("no area light"),
+            };
+            let sample = |sampler: &mut Sampler| {
+                let Emission { origin, direction, flux } = emit(&light, sampler);
+                assert!((flux - light.power()).length() < 1e-5 * flux.length(), "every path has all the power");
+                let basis = basis_at(origin);
+                let local = [basis.tangent, basis.bitangent, basis.normal].map(|axis| axis.dot(direction));
+                cap_square(DVec3::from_array(local), 0.0)
+            };
+            let origin = match &light {
+                Light::Sphere { sphere, .. } => sphere.center + sphere.radius * DVec3::Y,
+                light => light.center(),
+            };
+            let pdf = |square| {
+                let direction = basis_at(origin).world_from_local(cap_direction(square, 0.0));
+                4.0 * density(&light, origin, origin + 2.0 * direction)
+            };
+            assert_has_density("area light", sample, |square| cap_solid_angle(0.0) * pdf(square));
+        }
+    }
+
+    #[test]
+    fn origins_are_even_over_the_area() {
+        let Light::Sphere { sphere, .. } = sphere() else { unreachable!("a sphere") };
+        let on_sphere = |sampler: &mut Sampler| {
+            let normal = (emit(&super::tests::sphere(), sampler).origin - sphere.center) / sphere.radius;
+            cap_square(normal, -1.0)
+        };
+        assert_has_density("sphere", on_sphere, |_| 1.0);
+        let Light::Quad { quad: shape, .. } = quad() else { unreachable!("a quad") };
+        let on_quad = |sampler: &mut Sampler| {
+            let offset = emit(&quad(), sampler).origin - shape.position(0.0, 0.0);
+            let (u, v) = shape.edges();
+            // The edges are not perpendicular: solve the normal equations.
+            let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+            let (ou, ov) = (offset.dot(u), offset.dot(v));
+            Some(DVec2::new(vv * ou - uv * ov, uu * ov - uv * ou) / (uu * vv - uv * uv))
+        };
+        assert_has_density("quad", on_quad, |_| 1.0);
+    }
+}

@@ -156,6 +156,7 @@ simd_dispatch! {
 mod tests {
     use super::*;
     use crate::geometry::{Hit, Quad, Sphere};
+    use crate::math::chi_square::assert_has_frequencies;
     use crate::math::{Sampler, Stream, warp};
     use crate::world::{Lobe, Scattering, SurfacePoint};
 
@@ -214,6 +215,29 @@ mod tests {
             let tolerance = if contribution > 0.0 { 2.0 * step / contribution / f64::from(rounds) + 1e-6 } else { 0.0 };
             assert!((sum - expected).abs() <= tolerance, "{sum} for {light:?} that contributes {contribution}");
         }
+    }
+
+    /// One of the draws at random is each light with the probability of its expected contribution.
+    #[test]
+    fn draws_are_as_frequent_as_the_contributions_are_large() {
+        let (vertex, lights) = (vertex(), lights(60));
+        let sampler = sampler(&lights);
+        let mut contributions = vec![0.0; lights.len()];
+        expected_contributions(&sampler.columns, Vec3::ZERO, Vec3::Y, &mut contributions);
+        let total = contributions.iter().map(|&c| f64::from(c)).sum::<f64>();
+        let rounds = 50_000;
+        let mut counts = vec![0; lights.len()];
+        for round in 0..rounds {
+            let mut numbers = Sampler::new(3, Stream::Test, 2, round << 32);
+            let mut draws = Vec::new();
+            sampler.sample(&vertex, numbers.next_1d(), |light, weight| draws.push((light, weight)));
+            let (light, weight) = draws[(numbers.next_1d() * draws.len() as f64) as usize];
+            let expected = total / (MOST_SAMPLED as f64 * f64::from(contributions[light]));
+            assert!((f64::from(weight) / expected - 1.0).abs() < 1e-4, "the weight is 1 over the expected draws");
+            counts[light] += 1;
+        }
+        let expected: Vec<f64> = contributions.iter().map(|&c| rounds as f64 * f64::from(c) / total).collect();
+        assert_has_frequencies("lights", &counts, &expected);
     }
 
     #[test]

@@ -156,6 +156,30 @@ fn cells_of_small_objects(world: &World, light: &Light) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::chi_square::assert_has_density;
+
+    /// Marked cells share all probability but the defensive fraction, which is even over the sphere.
+    #[test]
+    fn samples_have_their_density() {
+        let cells: Vec<bool> = (0..SIDE * SIDE).map(|cell| cell % 37 == 0 || cell / SIDE > 60).collect();
+        let marked = cells.iter().filter(|&&is| is).count() as f64;
+        let map = ProjectionMap::from_cells(&cells);
+        assert_eq!(map.covered(), marked / 4096.0);
+        let density = |p: DVec2| {
+            let cell = (p * SIDE as f64).as_uvec2();
+            let is_marked = cells[cell.y as usize * SIDE + cell.x as usize];
+            DEFENSIVE_FRACTION + if is_marked { (1.0 - DEFENSIVE_FRACTION) * 4096.0 / marked } else { 0.0 }
+        };
+        let sample = |sampler: &mut Sampler| {
+            let (direction, pdf) = map.sample(sampler.next_2d());
+            let square = octahedral::square_from_direction(direction);
+            // Rounding may put a direction into the next cell.
+            let near_edge = (square * SIDE as f64 - (square * SIDE as f64).round()).abs().min_element() < 1e-6;
+            assert!(near_edge || (4.0 * PI * pdf / density(square) - 1.0).abs() < 1e-9, "pdf {pdf} at {square}");
+            Some(square)
+        };
+        assert_has_density("projection map", sample, density);
+    }
 
     #[test]
     fn densities_integrate_to_one_and_cover_everything() {

@@ -75,34 +75,11 @@ impl VisiblePoint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Rgb;
-    use crate::transport::points::Clearance;
-    use crate::world::{Lobe, Scattering};
-    use glam::{DVec2, Vec3};
+    use crate::transport::testing::visible_point;
+    use glam::Vec3;
 
     fn point(pixel: u32, tag: u32, x: f32) -> VisiblePoint {
-        VisiblePoint {
-            pixel,
-            position: Vec3::new(x, 0.0, 0.0),
-            n_side: Vec3::Y,
-            n_shade: Vec3::Y,
-            wo: Vec3::Y,
-            throughput: Rgb::ONE,
-            scattering: Scattering { albedo: Rgb::ONE, lobe: Lobe::None },
-            footprint: 0.1,
-            clearance: Clearance { any: f64::INFINITY, standing: f64::INFINITY },
-            primitive: 0,
-            uv: DVec2::ZERO,
-            tag,
-            photon_bounces: 3,
-            mean_albedo: Rgb::ONE,
-            spread: 0.0,
-            first_facet: 0,
-            facets: 0,
-            seen_directly: true,
-            on_an_edge: false,
-            blur: 0.0,
-        }
+        VisiblePoint { pixel, tag, position: Vec3::new(x, 0.0, 0.0), ..visible_point() }
     }
 
     /// Pixel 0 gathers for pixel 1. Each sees a floor (0), and a wall (8) in a mirror.

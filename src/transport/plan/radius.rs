@@ -154,15 +154,13 @@ fn in_lobe(radius: f64, blur: f32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Location, SceneFile};
-    use crate::world::prepare;
+    use crate::transport::testing;
 
     #[test]
     fn discs_for_caustics_are_small_near_objects() {
-        let text = "version = 1\n[camera]\nposition = [0, 0, 9]\ntarget = [0, 0, 0]\nfov_y = 40
-            [[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = 1\nradiance = [1, 1, 1]\n";
-        let file = SceneFile::parse(text, Location::Unsaved).expect("the scene is valid");
-        let plan = Plan::new(&prepare(&file.scene, &Location::Unsaved, None).expect("it can be prepared"));
+        let plan = Plan::new(&testing::world(
+            "[[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = 1\nradiance = [1, 1, 1]\n",
+        ));
         let radius = |wanted: f64, any: f64| {
             plan.radii.limited_caustic(wanted, 0.01, Clearance { any, standing: f64::INFINITY })
         };

@@ -151,6 +151,8 @@ pub(in crate::transport) fn scatters(scattering: &Scattering) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::chi_square::assert_has_density;
+    use crate::math::{Sampler, octahedral};
 
     #[test]
     fn fresnel_known_angles() {
@@ -197,6 +199,34 @@ mod tests {
             })
             .sum();
         assert!((mean - 1.0).abs() < 1e-3, "{mean}");
+    }
+
+    /// The Phong lobe about an axis off the normal, on a surface with relief: samples below the surface are left out.
+    #[test]
+    fn samples_of_the_lobe_have_their_density() {
+        let (n_side, n_shade) = (DVec3::Z, DVec3::new(0.2, -0.1, 1.0).normalize());
+        for (exponent, wo, n_shade) in [
+            (4.0, DVec3::Z, n_side),
+            (4.0, DVec3::new(0.9, 0.1, 0.3).normalize(), n_side),
+            (30.0, DVec3::new(-0.5, 0.8, 0.25).normalize(), n_shade),
+            (0.0, DVec3::new(0.3, 0.8, 0.5).normalize(), n_shade),
+        ] {
+            let lobe = Lobe::Phong { specular: Rgb::new(0.2, 0.6, 0.4), exponent };
+            let scattering = Scattering { albedo: Rgb::ZERO, lobe };
+            let pdf = |wi| pdf_glossy(&scattering, n_shade, wo, wi);
+            let sample = |sampler: &mut Sampler| {
+                let (wi, weight) = sample_glossy(&scattering, n_shade, n_side, wo, sampler.next_2d())?;
+                let expected = eval_glossy(&scattering, n_shade, wo, wi) * (wi.dot(n_shade) / pdf(wi)) as f32;
+                assert!((weight - expected).length() < 1e-5, "the weight is f cos / pdf");
+                Some(octahedral::square_from_direction(wi))
+            };
+            let density = |square| {
+                let wi = octahedral::direction_from_square(square);
+                let is_above = wi.dot(n_side) > 0.0 && wi.dot(n_shade) > 0.0;
+                if is_above { 4.0 * PI * pdf(wi) } else { 0.0 }
+            };
+            assert_has_density(&format!("exponent {exponent}"), sample, density);
+        }
     }
 
     #[test]
