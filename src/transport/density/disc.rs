@@ -126,3 +126,85 @@ fn plane_axes(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
     let e0 = a.normalize_or_zero();
     (e0, (b - e0 * e0.dot(b)).normalize_or_zero())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transport::testing::{self, quad, sphere, visible_point};
+    use glam::Vec3;
+    use std::f64::consts::FRAC_PI_2;
+
+    /// The disc at these parameters of the scene's first primitive.
+    fn disc(world: &World, uv: DVec2, radius: f64, linear: bool) -> Disc<'static> {
+        let point = VisiblePoint { uv, ..visible_point() };
+        Disc::new(world, &point, None, radius, linear).expect("an object")
+    }
+
+    fn floor() -> World {
+        testing::world(&quad("floor", [[-1.0, 0.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]], "grey"))
+    }
+
+    /// The kernel `1 - d^2 / r^2` has the integral `pi r^2 / 2`; of a disc about an edge the surface fills a half, about a corner a fourth.
+    #[test]
+    fn the_integral_covers_what_the_surface_fills() {
+        let (world, whole) = (floor(), FRAC_PI_2 * 0.25);
+        for (u, v, part) in [(0.5, 0.5, 1.0), (0.0, 0.5, 0.5), (0.5, 1.0, 0.5), (1.0, 0.0, 0.25), (0.26, 0.26, 1.0)] {
+            let found = disc(&world, DVec2::new(u, v), 0.5, false).integral / whole;
+            assert!((found - part).abs() < 1e-9, "{found} of the disc at ({u}, {v})");
+        }
+    }
+
+    /// Over the half disc `x > 0` of radius 1 the moments of the kernel are `pi / 4`, `x: 4 / 15`, `x^2: pi / 24`: the slope along x is
+    /// `-(4 / 15) / (pi / 24)`, away from the inside, and the integral `pi / 4 + slope 4 / 15`.
+    #[test]
+    fn a_linear_kernel_leans_towards_the_edge() {
+        let disc = disc(&floor(), DVec2::new(0.0, 0.5), 1.0, true);
+        let pi = std::f64::consts::PI;
+        let slope = -(4.0 / 15.0) / (pi / 24.0);
+        assert!((disc.query.slope - Vec3::new(slope as f32, 0.0, 0.0)).length() < 1e-4, "{}", disc.query.slope);
+        let integral = pi / 4.0 + slope * 4.0 / 15.0;
+        assert!((disc.integral - integral).abs() < 1e-6, "{} instead of {integral}", disc.integral);
+    }
+
+    /// Two patches side by side: the disc goes on over the edge that they share, and ends at the other edges.
+    #[test]
+    fn shared_edges_of_patches_do_not_end_a_disc() {
+        let x = |i: i32| f64::from(i) / 3.0;
+        let patch = |left: f64| -> Vec<Vec<[f64; 3]>> {
+            (0..4).map(|i| (0..4).map(|j| [left + x(i), 0.0, -x(j)]).collect()).collect()
+        };
+        let world = testing::world(&format!(
+            "[[object]]\nname = \"sheet\"\ntype = \"bezier\"\nmaterial = \"grey\"\npatches = {:?}\n",
+            [patch(0.0), patch(1.0)]
+        ));
+        let part = |u: f64| disc(&world, DVec2::new(u, 0.5), 0.4, false).integral / (FRAC_PI_2 * 0.16);
+        assert!((part(1.0) - 1.0).abs() < 1e-9, "{} at the shared edge", part(1.0));
+        assert!((part(0.0) - 0.5).abs() < 1e-9, "{} at the open edge", part(0.0));
+    }
+
+    #[test]
+    fn spheres_curve_away_on_their_outside() {
+        let world = testing::world(&sphere("ball", [0.0; 3], 2.0, "grey"));
+        let curvature = |n_side| {
+            let position = (DVec3::new(0.0, 2.0, 0.0) - world.center).as_vec3();
+            let point = VisiblePoint { position, n_side, ..visible_point() };
+            Disc::new(&world, &point, None, 0.5, false).expect("an object").correction.curvature
+        };
+        assert_eq!((curvature(Vec3::Y), curvature(Vec3::NEG_Y)), (0.25, 0.0));
+    }
+
+    #[test]
+    fn a_disc_reads_the_tags_of_its_point_and_has_a_least_radius() {
+        let world = floor();
+        let point = VisiblePoint { tag: 512, photon_bounces: 7, ..visible_point() };
+        let query = Disc::new(&world, &point, None, 0.0, false).expect("an object").query;
+        assert_eq!((query.tag_start, query.tag_span), (512, 8), "0 to 7 scattering events");
+        assert!((f64::from(query.radius) / (LEAST_RADIUS * world.radius) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn lights_have_no_disc() {
+        let lamp = "[[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = 1\nradiance = [1, 1, 1]\n";
+        assert!(Disc::new(&testing::world(lamp), &visible_point(), None, 1.0, false).is_none());
+    }
+}

@@ -80,3 +80,67 @@ impl Contribution {
         Self { photons, samples, differences }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transport::points::VisiblePoint;
+    use crate::transport::testing::{self, lamp, quad, visible_point};
+    use crate::world::{Lobe, Scattering};
+    use glam::Vec3;
+
+    /// A glossy floor with a wall, on a film of 2 x 2 pixels.
+    fn world() -> World {
+        let gloss =
+            "[[material]]\nname = \"gloss\"\ntype = \"phong\"\nalbedo = [0.5, 0.5, 0.5]\nspecular = [0.5, 0.5, 0.5]
+            exponent = 10\n[film]\nwidth = 2\nheight = 2\n";
+        let floor = quad("floor", [[-1.0, 0.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]], "gloss");
+        let wall = quad("wall", [[-1.0, 0.0, -1.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]], "grey");
+        testing::world(&[gloss, &floor, &wall, &lamp([0.0, 1.0, 0.0])].concat())
+    }
+
+    fn band(world: &World, rows: &Rows, found: &[(VisiblePoint, f32)]) -> Band {
+        let pixels = rows.len() * 2;
+        let seen = CameraBatch {
+            visible_points: found.iter().map(|(point, _)| *point).collect(),
+            samples: vec![PixelSamples { count: rows.start + 1, ..PixelSamples::default() }; pixels],
+            ..CameraBatch::default()
+        };
+        let gathered =
+            |&(_, radiance): &(VisiblePoint, f32)| Gathered { radiance: Rgb::splat(radiance), ..Gathered::default() };
+        let gathered: Vec<Gathered> = found.iter().map(gathered).collect();
+        Band::new(world, &Plan::new(world), rows, seen, &gathered, 4)
+    }
+
+    fn at(pixel: u32) -> VisiblePoint {
+        VisiblePoint { pixel, ..visible_point() }
+    }
+
+    #[test]
+    fn points_bands_and_splats_add_up_in_their_pixels() {
+        let world = world();
+        let bands = [band(&world, &(0..1), &[(at(1), 1.0), (at(1), 2.0)]), band(&world, &(1..2), &[(at(2), 4.0)])];
+        let splats = [(3, 8.0), (1, 16.0), (3, 32.0)];
+        let splats = splats.map(|(pixel, radiance)| Splat { pixel, radiance: Rgb::splat(radiance) });
+        let Contribution { photons, samples, differences } = Contribution::new(&bands, &splats, 2);
+        assert_eq!(photons.iter().map(|radiance| radiance.x).collect::<Vec<_>>(), [0.0, 19.0, 4.0, 40.0]);
+        assert_eq!(samples.iter().map(|samples| samples.count).collect::<Vec<_>>(), [1, 1, 2, 2], "row by row");
+        assert_eq!(differences.len(), 4);
+    }
+
+    /// Two neighbours on the floor: what one sees in its lobe is shared, its own light is not.
+    #[test]
+    fn light_in_a_lobe_goes_to_the_neighbours() {
+        let world = world();
+        let lobe = Lobe::Phong { specular: Rgb::splat(0.5), exponent: 10.0 };
+        let on_the_floor = |pixel, x| VisiblePoint {
+            scattering: Scattering { albedo: Rgb::splat(0.5), lobe },
+            position: Vec3::new(x, 0.0, 0.0),
+            ..at(pixel)
+        };
+        let in_the_lobe = VisiblePoint { seen_directly: false, primitive: 1, ..at(0) };
+        let found = [(on_the_floor(0, 0.0), 1.0), (in_the_lobe, 8.0), (on_the_floor(1, 0.1), 2.0)];
+        let photons = Contribution::new(&[band(&world, &(0..1), &found), band(&world, &(1..2), &[])], &[], 2).photons;
+        assert_eq!([photons[0].x, photons[1].x], [1.0 + 4.0, 2.0 + 4.0]);
+    }
+}

@@ -274,3 +274,102 @@ impl Gatherer<'_> {
         point.throughput * reflected
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transport::photons::{Photon, photon};
+    use crate::transport::testing::{self, quad, visible_point};
+    use crate::world::{Lobe, Scattering};
+    use glam::{DVec2, DVec3, Vec3};
+    use std::f32::consts::PI;
+
+    /// Irradiance of the floor, W per square unit.
+    const IRRADIANCE: Rgb = Rgb::new(1.0, 2.0, 3.0);
+    /// Photons along a side of the floor.
+    const SIDE: u32 = 400;
+
+    /// A floor of 2 x 2 about the origin.
+    fn floor() -> World {
+        testing::world(&quad("floor", [[-1.0, 0.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]], "grey"))
+    }
+
+    /// Photons evenly over the floor, from straight above, after so many scattering events.
+    fn photons(world: &World, bounces: u32) -> Vec<Photon> {
+        let at = |k: u32| 2.0 * (f64::from(k) + 0.5) / f64::from(SIDE) - 1.0;
+        let photon = |k: u32| Photon {
+            position: (DVec3::new(at(k % SIDE), 0.0, at(k / SIDE)) - world.center).as_vec3(),
+            flux: IRRADIANCE * 4.0 / (SIDE * SIDE) as f32,
+            wi: Vec3::Y,
+            cos: 1.0,
+            tag: photon::tag(0, true, bounces),
+        };
+        (0..SIDE * SIDE).map(photon).collect()
+    }
+
+    /// The floor at u, v = 0.5, of albedo 0.5, for a camera path of throughput 0.5.
+    fn point(world: &World, u: f64) -> VisiblePoint {
+        VisiblePoint {
+            position: (DVec3::new(2.0 * u - 1.0, 0.0, 0.0) - world.center).as_vec3(),
+            uv: DVec2::new(u, 0.5),
+            tag: photon::tag(0, true, 0),
+            photon_bounces: 3,
+            throughput: Rgb::splat(0.5),
+            scattering: Scattering { albedo: Rgb::splat(0.5), lobe: Lobe::None },
+            mean_albedo: Rgb::splat(0.5),
+            footprint: 0.01,
+            ..visible_point()
+        }
+    }
+
+    fn gathered(world: &World, maps: &Maps, point: VisiblePoint) -> Rgb {
+        let seen = CameraBatch { visible_points: vec![point], ..CameraBatch::default() };
+        let (found, _) = gather(world, &Plan::new(world), maps, &seen, 4, Cancel::NEVER).expect("never cancelled");
+        found[0].radiance
+    }
+
+    /// Even photons give the radiance `throughput albedo / pi E`, in the middle of the floor and, where the disc is cut, at its edge.
+    #[test]
+    fn even_photons_give_the_irradiance() {
+        let world = floor();
+        let photons = photons(&world, 1);
+        let expected = 0.5 * 0.5 / PI * IRRADIANCE;
+        for (u, tolerance) in [(0.5, 0.005), (0.0, 0.02), (0.03, 0.01)] {
+            for maps in [[&photons[..], &[], &[]], [&[], &photons[..], &[]]] {
+                let found = gathered(&world, &Maps::build(&[], maps), point(&world, u));
+                // Photons 1/200 apart in discs of 0.1 and more; half a row of them is uncertain at the edge.
+                let error = (found / expected - Rgb::ONE).abs().max_element();
+                assert!(error < tolerance, "{found} instead of {expected} at {u}");
+            }
+        }
+    }
+
+    #[test]
+    fn all_maps_that_the_point_needs_add_up() {
+        let world = floor();
+        let photons = photons(&world, 1);
+        let radiance = |maps: &Maps, point| gathered(&world, maps, point).x / (0.25 / PI);
+        let diffuse = point(&world, 0.5);
+        let of_all = |maps: &Maps| (radiance(maps, diffuse) * 100.0).round();
+        assert_eq!(of_all(&Maps::build(&[], [&photons, &photons, &[]])), 200.0);
+        assert_eq!(of_all(&Maps::build(&[], [&photons, &[], &photons])), 100.0, "no lobe, no glossy map");
+        assert_eq!(of_all(&Maps::default()), 0.0);
+        // No caustics are planned, so directly seen ones are splats; those in a mirror are gathered.
+        let caustics = Maps::build(&photons, [&[], &[], &[]]);
+        assert_eq!(of_all(&caustics), 0.0);
+        let in_a_mirror = VisiblePoint { seen_directly: false, ..diffuse };
+        assert!((radiance(&caustics, in_a_mirror) - 1.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn photons_of_other_surfaces_and_after_too_many_events_do_not_count() {
+        let world = floor();
+        let point = point(&world, 0.5);
+        let radiance = |photons: &[Photon]| gathered(&world, &Maps::build(&[], [photons, &[], &[]]), point).x;
+        assert!(radiance(&photons(&world, 3)) > 0.0);
+        assert_eq!(radiance(&photons(&world, 4)), 0.0, "one event too many");
+        let mut below = photons(&world, 1);
+        below.iter_mut().for_each(|photon| photon.tag = photon::tag(0, false, 1));
+        assert_eq!(radiance(&below), 0.0, "on the other side");
+    }
+}

@@ -39,3 +39,46 @@ pub fn global_photon_pass(
     let counters = blocks.iter().map(|block| block.counters).sum();
     Some(GlobalPhotons { photons, indirect_caustics, glossy, counters })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transport::testing::{self, lamp, sphere};
+    use std::f64::consts::PI;
+
+    fn closed_room() -> World {
+        testing::world(
+            &[&sphere("room", [0.0; 3], 2.0, "grey"), &lamp([0.3, -0.2, 0.5]), "[render]\nmax_bounces = 3\n"].concat(),
+        )
+    }
+
+    /// Small first iterations and full ones bring the same flux: 1/2 + 1/4 of the power, by their own numbers of paths.
+    #[test]
+    fn every_iteration_brings_the_whole_flux() {
+        let world = closed_room();
+        let plan = Plan::new(&world);
+        let mut paths = Vec::new();
+        for iteration in [1, 2, 3, 4, 9] {
+            let found = global_photon_pass(&world, &plan, 1, iteration, Cancel::NEVER).expect("never cancelled");
+            let flux = found.photons.iter().map(|photon| f64::from(photon.flux.x)).sum::<f64>() / (4.0 * PI);
+            let count = found.counters.global_paths;
+            // Two arrivals a path with a deviation of 1/2 each, at most all correlated.
+            assert!((flux - 0.75).abs() < 4.0 / (count as f64).sqrt(), "{flux} in iteration {iteration}");
+            paths.push(count as f64 / plan.global_paths[0] as f64);
+        }
+        assert_eq!(paths, [0.125, 0.25, 0.5, 1.0, 1.0]);
+    }
+
+    /// Paths of successive iterations go on in the sequence of their light, so none is traced twice.
+    #[test]
+    fn iterations_trace_different_paths() {
+        let world = closed_room();
+        let plan = Plan::new(&world);
+        let first = |iteration| {
+            let found = global_photon_pass(&world, &plan, 1, iteration, Cancel::NEVER).expect("never cancelled");
+            found.photons[0].position
+        };
+        assert!(first(4) == first(4) && first(4) != first(5));
+        assert!(global_photon_pass(&world, &plan, 1, 4, Cancel::when(&|| true)).is_none(), "cancelled");
+    }
+}

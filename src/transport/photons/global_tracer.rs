@@ -215,3 +215,81 @@ fn follow_specular(
     path.media = next.media;
     Some(next.direction)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Stream;
+    use crate::transport::photons::photon::{self, MAX_TAG_BOUNCES};
+    use crate::transport::testing::{self, lamp, sphere};
+
+    const PATHS: u64 = 1 << 14;
+
+    /// Photons of a closed room, a sphere of this material with a point light (power 4 pi) off its middle.
+    fn traced(material: &str, max_bounces: u32) -> GlobalPhotons {
+        let polished = "[[material]]\nname = \"polished\"\ntype = \"polished\"\nalbedo = [0.5, 0.5, 0.5]
+            reflectance = [0.5, 0.5, 0.5]\n";
+        let room = sphere("room", [0.0; 3], 2.0, material);
+        let world = testing::world(&format!(
+            "{polished}{room}{}[render]\nmax_bounces = {max_bounces}\n",
+            lamp([0.3, -0.2, 0.5])
+        ));
+        let mut tracer = GlobalPhotonTracer::new(&world, None);
+        for index in 0..PATHS {
+            tracer.trace(0, PATHS, Sampler::new(4, Stream::Test, 0, index));
+        }
+        tracer.stored
+    }
+
+    /// Flux of photons over the light's power.
+    fn flux(photons: &[Photon]) -> f64 {
+        photons.iter().map(|photon| f64::from(photon.flux.y)).sum::<f64>() / (4.0 * std::f64::consts::PI)
+    }
+
+    fn assert_flux(photons: &[Photon], expected: f64, what: &str) {
+        let found = flux(photons);
+        // Fewer than `max_bounces` photons a path: a standard error below 2 / sqrt(PATHS), of which stratification leaves a part.
+        assert!((found - expected).abs() < 6.0 / (PATHS as f64).sqrt(), "{what}: {found} instead of {expected}");
+    }
+
+    /// In a closed room of albedo 1/2 the light arrives with 1/2, 1/4, ... of its flux; the first arrival is direct light.
+    #[test]
+    fn a_closed_room_keeps_the_albedo_at_every_arrival() {
+        for (max_bounces, expected) in [(1, 0.0), (2, 0.5), (3, 0.75), (6, 1.0 - 0.5f64.powi(5))] {
+            let found = traced("grey", max_bounces);
+            assert_flux(&found.photons, expected, &format!("{max_bounces} bounces"));
+            assert!(found.indirect_caustics.is_empty() && found.glossy.is_empty());
+            assert_eq!(found.counters.photons_stored, found.photons.len() as u64);
+            assert_eq!(found.counters.global_paths, PATHS);
+        }
+    }
+
+    /// Where half of the light is scattered and half mirrored, arrival k (from 0) comes from the diffuse part with 1/2, and from the mirror
+    /// after some diffuse event with `1/2 (1 - 2^(1 - k))`.
+    #[test]
+    fn light_from_mirrors_is_kept_apart() {
+        let found = traced("polished", 4);
+        assert_flux(&found.photons, 3.0 * 0.5, "scattered");
+        assert_flux(&found.indirect_caustics, 0.25 + 0.375, "mirrored after it was scattered");
+    }
+
+    #[test]
+    fn tags_count_scattering_events() {
+        let found = traced("white", 5);
+        let count = |bounces: u32| found.photons.iter().filter(|p| p.tag & MAX_TAG_BOUNCES == bounces).count() as u64;
+        assert_eq!([0, 1, 2, 3, 4, 5].map(count), [0, PATHS, PATHS, PATHS, PATHS, 0], "white keeps every path");
+        // The room is object 0, seen from inside.
+        assert!(found.photons.iter().all(|p| p.tag & !MAX_TAG_BOUNCES == photon::tag(0, false, 0)));
+    }
+
+    #[test]
+    fn paths_arrive_where_light_comes_first() {
+        let world = testing::world(&[sphere("room", [0.0; 3], 2.0, "black"), lamp([0.0; 3])].concat());
+        let arrivals = arrivals_of_path(&world, 0, Sampler::new(4, Stream::Test, 0, 0));
+        assert!(arrivals.is_empty(), "a black room stores nothing");
+        let world = testing::world(&[sphere("room", [0.0; 3], 2.0, "grey"), lamp([0.0; 3])].concat());
+        let arrivals = arrivals_of_path(&world, 0, Sampler::new(4, Stream::Test, 0, 0));
+        let distance = arrivals.first().expect("the first arrival counts, too").length();
+        assert!(distance < 2.0 && distance > 2.0 - 1e-4, "a little in front of the wall: {distance}");
+    }
+}

@@ -94,3 +94,107 @@ pub(in crate::transport) fn roulette(strength: f32, threshold: f32, sampler: &mu
     let survival = strength / threshold;
     (sampler.next_1d() < f64::from(survival)).then_some(survival)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Ray, Stream};
+    use crate::transport::testing::{self, sphere};
+    use glam::DVec3;
+
+    /// A glass ball of radius 1 in a ball of water of radius 2, both absorbing.
+    fn glass_in_water() -> World {
+        let materials = "[[material]]\nname = \"water\"\ntype = \"glass\"\nior = 1.33\nabsorption = [0.1, 0.2, 0]
+            [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5\nabsorption = [0.3, 0, 0.4]\ntint = [1, 1, 0.5]\n";
+        let balls = [sphere("pond", [0.0; 3], 2.0, "water"), sphere("marble", [0.0; 3], 1.0, "glass")];
+        testing::world(&[materials, &balls.concat()].concat())
+    }
+
+    /// Straight through the middle of glass in water in air: at normal incidence each interface passes `4 a b / (a + b)^2` of the light,
+    /// and the bodies absorb over 1, 2 and 1 units.
+    #[test]
+    fn nested_glass_passes_what_fresnel_and_beer_say() {
+        let world = glass_in_water();
+        let (mut ray, mut media) = (Ray::new(DVec3::new(0.0, 0.0, 4.0), DVec3::NEG_Z), Media::default());
+        let (mut flux, mut radiance) = (Rgb::ONE, Rgb::ONE);
+        for (before, behind) in [(1.0, 1.33), (1.33, 1.5), (1.5, 1.33), (1.33, 1.0f64)] {
+            let vertex = testing::vertex(&world, &ray);
+            let absorbed = media.transmittance(&world, vertex.point.position.distance(ray.origin));
+            let SpecularEvent { reflected, refracted } = SpecularEvent::at(&world, &vertex, &media).expect("glass");
+            let refracted = refracted.expect("there is no total reflection at normal incidence");
+            let passed = 4.0 * before * behind / (before + behind).powi(2);
+            assert!((refracted.fraction - passed).abs() < 1e-12, "from {before} to {behind}: {}", refracted.fraction);
+            assert!((reflected.fraction + refracted.fraction - 1.0).abs() < 1e-12, "nothing is lost");
+            assert!(reflected.direction.distance(DVec3::Z) < 1e-9 && refracted.direction.distance(DVec3::NEG_Z) < 1e-9);
+            let weight = refracted.radiance_weight() * (behind / before).powi(2) as f32;
+            assert!((weight - refracted.tint).length() < 1e-5, "radiance is squeezed by eta^2");
+            flux *= absorbed * refracted.tint * refracted.fraction as f32;
+            radiance *= absorbed * refracted.radiance_weight() * refracted.fraction as f32;
+            (ray, media) = (vertex.ray(&world, refracted.direction), refracted.media);
+        }
+        let interfaces = (4.0 * 1.33 / 2.33f32.powi(2) * 4.0 * 1.33 * 1.5 / 2.83f32.powi(2)).powi(2);
+        let (water, glass) = (Rgb::new(0.1, 0.2, 0.0), Rgb::new(0.3, 0.0, 0.4));
+        let expected = interfaces * (-2.0 * water - 2.0 * glass).exp() * Rgb::new(1.0, 1.0, 0.25);
+        assert!((flux - expected).length() < 1e-5, "{flux} instead of {expected}");
+        assert!((radiance - expected).length() < 1e-5, "back in air, radiance is squeezed no more: {radiance}");
+        assert_eq!(media.transmittance(&world, 5.0), Rgb::ONE, "outside all bodies");
+    }
+
+    #[test]
+    fn bodies_may_overlap_and_be_open() {
+        let world = glass_in_water();
+        let (water, glass) = (4, 5);
+        let air = Media::default();
+        assert!((air.eta(&world, glass, false) - 1.0 / 1.5).abs() < 1e-12, "left without having been entered");
+        let both = air.crossed(water, true).crossed(glass, true);
+        assert!((both.eta(&world, water, false) - 1.5 / 1.33).abs() < 1e-12, "the glass is behind the water's surface");
+        let in_glass_alone = both.crossed(water, false);
+        assert!((in_glass_alone.eta(&world, glass, false) - 1.0 / 1.5).abs() < 1e-12, "the water was left first");
+        let expected = (-0.3f32).exp();
+        assert!((in_glass_alone.transmittance(&world, 1.0).x - expected).abs() < 1e-6, "glass absorbs on");
+        let many = (0..20).fold(air, |media, _| media.crossed(water, true));
+        assert!((many.eta(&world, glass, true) - 1.5 / 1.33).abs() < 1e-12, "deep nesting does no harm");
+    }
+
+    #[test]
+    fn light_that_is_totally_reflected_stays_inside() {
+        let world = glass_in_water();
+        let inside = Media::default().crossed(4, true);
+        // At height 1.9 of 2 in the water the sine is 0.95, beyond that of the critical angle, 1 / 1.33.
+        let ray = Ray::new(DVec3::new(-0.3, 1.9, 0.0), DVec3::X);
+        let event = SpecularEvent::at(&world, &testing::vertex(&world, &ray), &inside).expect("water");
+        assert!(event.refracted.is_none() && event.reflected.fraction == 1.0);
+        let on = event.choose(0.999);
+        let outward = DVec3::new((4.0f64 - 1.9 * 1.9).sqrt(), 1.9, 0.0) / 2.0;
+        assert!(on.direction.dot(outward) < 0.0 && (on.media.eta(&world, 4, false) - 1.0 / 1.33).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_direction_is_chosen_as_often_as_light_takes_it() {
+        let world = glass_in_water();
+        let ray = Ray::new(DVec3::new(1.8, 0.0, 4.0), DVec3::NEG_Z);
+        let vertex = testing::vertex(&world, &ray);
+        let at = || SpecularEvent::at(&world, &vertex, &Media::default()).expect("water");
+        let reflected = at().reflected;
+        let n = 10_000;
+        let is_reflected = |k: i32| at().choose((f64::from(k) + 0.5) / f64::from(n)).direction == reflected.direction;
+        let found = (0..n).filter(|&k| is_reflected(k)).count() as f64 / f64::from(n);
+        assert!(reflected.fraction > 0.04 && (found - reflected.fraction).abs() < 1e-4, "{found}");
+    }
+
+    /// Strength over survival, averaged, is the strength: roulette has no bias.
+    #[test]
+    fn roulette_keeps_the_mean() {
+        for strength in [1e-3f32, 0.2, 0.7, 1.0, 3.0] {
+            let n = 1 << 14;
+            let kept = |k| roulette(strength, 1.0, &mut Sampler::new(2, Stream::Test, 0, k)).map(|p| strength / p);
+            let mean = (0..n).filter_map(kept).map(f64::from).sum::<f64>() / n as f64;
+            // The sequence is stratified: the number of survivors is exact to one.
+            assert!((mean - f64::from(strength)).abs() < 2.0 / n as f64 + 1e-6, "{mean} instead of {strength}");
+        }
+        assert!(
+            roulette(f32::NAN, 1.0, &mut Sampler::new(2, Stream::Test, 0, 0)) == Some(1.0),
+            "for the film to count"
+        );
+    }
+}

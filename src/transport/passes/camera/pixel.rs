@@ -71,3 +71,62 @@ impl Pixel {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transport::testing::visible_point;
+    use crate::world::{Lobe, Scattering};
+    use glam::Vec3;
+
+    fn facet(tag: u32, x: f32, albedo: f32) -> Facet {
+        Facet { normal: Vec3::Y, albedo: Rgb::splat(albedo), tag, position: Vec3::new(x, 0.0, 0.0) }
+    }
+
+    fn completed(pixel: &Pixel, points: &[VisiblePoint], on_an_edge: bool) -> (Vec<VisiblePoint>, Vec<Facet>) {
+        let (mut points, mut facets) = (points.to_vec(), vec![facet(99, 0.0, 0.0)]);
+        pixel.complete(&mut points, &mut facets, 0, on_an_edge);
+        (points, facets)
+    }
+
+    #[test]
+    fn albedo_and_spread_are_those_of_all_paths_on_the_surface() {
+        let mut pixel = Pixel::new();
+        for facet in [facet(0, -0.2, 0.2), facet(0, 0.3, 0.6), facet(8, 5.0, 1.0)] {
+            pixel.add(facet, false);
+        }
+        let (points, facets) = completed(&pixel, &[visible_point()], false);
+        assert!((points[0].mean_albedo - Rgb::splat(0.4)).length() < 1e-6, "{}", points[0].mean_albedo);
+        assert_eq!((points[0].spread, points[0].facets, facets.len()), (0.3, 0, 1), "no relief, no facets");
+        let (points, _) = completed(&pixel, &[visible_point()], true);
+        assert!(points[0].on_an_edge && points[0].mean_albedo == Rgb::ONE, "at an edge each point stays as it is");
+        let in_a_mirror = VisiblePoint { seen_directly: false, ..visible_point() };
+        assert_eq!(completed(&pixel, &[in_a_mirror], false).0[0].mean_albedo, Rgb::ONE);
+    }
+
+    #[test]
+    fn relief_leaves_the_facets_of_the_surface() {
+        let mut pixel = Pixel::new();
+        pixel.add(facet(0, 0.0, 0.2), true);
+        pixel.add(facet(8, 0.0, 0.4), false);
+        pixel.add(facet(0, 0.0, 0.6), false);
+        let (points, facets) = completed(&pixel, &[visible_point()], false);
+        let own = &facets[points[0].first_facet as usize..][..points[0].facets as usize];
+        assert_eq!(own.iter().map(|facet| facet.albedo.x).collect::<Vec<_>>(), [0.2, 0.6]);
+        pixel.begin(1);
+        pixel.add(facet(0, 0.0, 0.5), false);
+        assert_eq!(completed(&pixel, &[visible_point()], false).0[0].facets, 0, "the next pixel begins afresh");
+    }
+
+    /// Of a texture that is black at the visible point the other paths may have seen a part that is not.
+    #[test]
+    fn points_that_reflect_nothing_are_dropped() {
+        let black = Scattering { albedo: Rgb::ZERO, lobe: Lobe::None };
+        let point = |pixel| VisiblePoint { pixel, scattering: black, ..visible_point() };
+        let mut pixel = Pixel::new();
+        pixel.add(facet(0, 0.0, 0.0), false);
+        assert!(completed(&pixel, &[point(0)], false).0.is_empty());
+        pixel.add(facet(0, 0.0, 0.5), false);
+        assert_eq!(completed(&pixel, &[point(0)], false).0[0].mean_albedo, Rgb::splat(0.25));
+    }
+}

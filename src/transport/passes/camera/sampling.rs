@@ -143,3 +143,64 @@ fn gathering_group(plan: &Plan, pixel: u32, groups: usize, seed: u64, iteration:
     let mut sampler = Sampler::new(seed, plan.stream(Stream::GatheringSample), u64::from(pixel), iteration);
     (sampler.next_1d() * groups as f64) as usize
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Rgb;
+    use crate::transport::testing::{self, lamp, sphere};
+
+    /// A grey ball in a closed grey room: every camera path meets a diffuse surface.
+    fn room() -> World {
+        let film = "[film]\nwidth = 24\nheight = 20\n";
+        let ball = sphere("ball", [0.0; 3], 0.7, "grey");
+        testing::world(&[&sphere("room", [0.0; 3], 5.0, "grey"), &ball, &lamp([1.0, 3.0, 2.0]), film].concat())
+    }
+
+    /// The visible points of a pixel have the weights of a mean: one point where all paths meet one surface, several at an edge.
+    #[test]
+    fn gather_weights_of_a_pixel_add_up_to_one() {
+        let world = room();
+        let plan = Plan::new(&world);
+        for iteration in [1, 3, 4, 5] {
+            let seen = camera_pass(&world, &plan, &(4..16), 1, iteration, Cancel::NEVER).expect("never cancelled");
+            let mut sums = vec![Rgb::ZERO; 24 * 12];
+            let mut edges = 0;
+            for point in &seen.visible_points {
+                sums[point.pixel as usize - 4 * 24] += point.throughput;
+                edges += usize::from(point.on_an_edge);
+            }
+            assert!(sums.iter().all(|sum| (*sum - Rgb::ONE).length() < 1e-6), "iteration {iteration}");
+            let points = seen.visible_points.len();
+            // At an edge the four samples of a full iteration gather.
+            let extra = edges - edges / SAMPLES_OF_EDGE;
+            assert!(iteration < 4 || (edges > 0 && points == 24 * 12 + extra), "{points} points, {edges} at edges");
+        }
+    }
+
+    #[test]
+    fn every_pixel_takes_the_samples_that_the_plan_allots() {
+        let world = room();
+        let plan = Plan::new(&world);
+        for iteration in 1..=5 {
+            let seen = camera_pass(&world, &plan, &(0..20), 1, iteration, Cancel::NEVER).expect("never cancelled");
+            let wanted = |pixel| plan.camera_samples(pixel, iteration).count() as u32;
+            assert!((0..).zip(&seen.samples).all(|(pixel, samples)| samples.count == wanted(pixel)));
+            let is_lit = |samples: &&PixelSamples| samples.sum.min_element() > 0.0;
+            assert!(seen.samples.iter().filter(is_lit).count() > 24 * 20 / 2, "most pixels see light");
+        }
+    }
+
+    /// Bands of rows are parts of the whole film: the same samples, wherever a band begins.
+    #[test]
+    fn rows_do_not_depend_on_the_band() {
+        let world = room();
+        let plan = Plan::new(&world);
+        let samples = |rows: Range<u32>| {
+            let seen = camera_pass(&world, &plan, &rows, 1, 4, Cancel::NEVER).expect("never cancelled");
+            seen.samples.iter().map(|samples| samples.sum).collect::<Vec<_>>()
+        };
+        assert_eq!(samples(0..20), [samples(0..7), samples(7..20)].concat());
+        assert!(camera_pass(&world, &plan, &(0..20), 1, 4, Cancel::when(&|| true)).is_none(), "cancelled");
+    }
+}

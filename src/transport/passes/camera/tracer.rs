@@ -240,3 +240,66 @@ impl Branch {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Stream;
+    use crate::transport::testing::{self, lamp, quad};
+
+    /// A mirror (reflectance 0.8) in the plane z = 0 that looks to +z.
+    fn mirror(half: f64) -> String {
+        quad("mirror", [[-half, -half, 0.0], [2.0 * half, 0.0, 0.0], [0.0, 2.0 * half, 0.0]], "mirror")
+    }
+
+    /// One path along -z from (0.1, 0, 4): its radiance, and what it found.
+    fn traced(text: &str) -> (Rgb, CameraBatch) {
+        let world = testing::world(text);
+        let plan = Plan::new(&world);
+        let mut tracer = CameraTracer::new(&world, &plan, CameraBatch::default());
+        let mut pixel = Pixel::new();
+        pixel.gather_weight = 0.5;
+        let ray = Ray::new(DVec3::new(0.1, 0.0, 4.0), DVec3::NEG_Z);
+        let hit = world.aggregate.closest_hit(&ray);
+        let radiance = tracer.trace(&mut pixel, ray, hit, &mut Sampler::new(1, Stream::Test, 0, 0));
+        (radiance, tracer.batch)
+    }
+
+    #[test]
+    fn a_lamp_in_a_mirror_has_its_radiance_times_the_reflectance() {
+        let light = |edge_u: &str, edge_v: &str| {
+            format!(
+                "[[light]]\nname = \"l\"\ntype = \"quad\"\ncorner = [-1, -1, 6]\nedge_u = {edge_u}\nedge_v = {edge_v}\nradiance = [1, 2, 3]\n"
+            )
+        };
+        let (x, y) = ("[2, 0, 0]", "[0, 2, 0]");
+        let (radiance, batch) = traced(&(mirror(2.0) + &light(y, x)));
+        assert!((radiance - 0.8 * Rgb::new(1.0, 2.0, 3.0)).length() < 1e-5, "{radiance}");
+        assert!(batch.visible_points.is_empty() && batch.counters.rays == 1, "the first ray is the caller's");
+        assert_eq!(traced(&(mirror(2.0) + &light(x, y))).0, Rgb::ZERO, "its back is dark");
+        let (radiance, _) = traced(&(mirror(2.0) + "[render]\nbackground = [1, 1, 1]\n"));
+        assert!((radiance - Rgb::splat(0.8)).length() < 1e-6, "the background in the mirror: {radiance}");
+    }
+
+    /// A wall at z = 6, lit by a lamp at z = 5, is seen after 4 + 6 units: radiance `albedo / pi * I / d^2`, times 0.8 in the mirror.
+    #[test]
+    fn a_wall_in_a_mirror_is_a_visible_point() {
+        let wall = quad("wall", [[-3.0, -3.0, 6.0], [0.0, 6.0, 0.0], [6.0, 0.0, 0.0]], "grey");
+        let scene = [&mirror(2.0), &wall, &lamp([0.1, 0.0, 5.0]), "[render]\nmax_bounces = 7\n"].concat();
+        let (radiance, batch) = traced(&scene);
+        assert!((f64::from(radiance.x) - 0.8 * 0.5 / std::f64::consts::PI).abs() < 1e-5, "{radiance}");
+        let [point] = batch.visible_points.as_slice() else { panic!("{} points", batch.visible_points.len()) };
+        assert!((point.throughput - Rgb::splat(0.8 * 0.5)).length() < 1e-6, "reflectance times the gather weight");
+        assert!(!point.seen_directly && point.photon_bounces == 5, "of 7 events the mirror and the wall take two");
+        let expected = testing::world(&scene).camera.footprint(10.0);
+        assert!((f64::from(point.footprint) / expected - 1.0).abs() < 1e-6, "over the whole path");
+    }
+
+    #[test]
+    fn facing_mirrors_end_at_the_bounce_limit() {
+        let facing = quad("facing", [[-2.0, -2.0, 6.0], [0.0, 4.0, 0.0], [4.0, 0.0, 0.0]], "mirror");
+        let background = "[render]\nbackground = [1, 1, 1]\nmax_bounces = 6\n";
+        let (radiance, batch) = traced(&[&mirror(2.0), &facing, background].concat());
+        assert_eq!((radiance, batch.counters.rays), (Rgb::ZERO, 6));
+    }
+}
