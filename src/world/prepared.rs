@@ -32,6 +32,11 @@ pub struct World {
 }
 
 impl World {
+    /// The decoded images of textures and maps, each once, in the order in which materials first use them.
+    pub fn images(&self) -> impl Iterator<Item = &Arc<Image>> {
+        self.textures.iter().map(|(_, image)| image)
+    }
+
     /// The surface point of a ray's hit.
     pub fn surface_point(&self, ray: &Ray, hit: Hit) -> SurfacePoint {
         let primitive = &self.aggregate.primitives()[hit.primitive as usize];

@@ -4,11 +4,11 @@
 //! A ray is `clear` if the answer is certain with some margin, `seam` if its nearest hit lies on an edge that two patches
 //! share, and `delicate` if any sane answer will do.
 
+use crate::support::patchlight;
 use glam::{DMat3, DVec3};
 use patchlight::geometry::bezier::{ControlNet, Patch, read_bpt};
 use patchlight::geometry::{Aggregate, Primitive};
 use patchlight::math::{LANES, Ray};
-use std::process::{Command, Output};
 use std::{collections::HashMap, fs, sync::Arc};
 
 const PATCHES: &str = include_str!("../data/bezier/patches.txt");
@@ -224,10 +224,6 @@ fn no_far_ray_slips_between_slivers() {
     }
 }
 
-fn patchlight(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_patchlight")).args(arguments).output().unwrap()
-}
-
 #[test]
 fn the_command_line_gives_the_same_answers() {
     let dir = tempfile::tempdir().unwrap();
@@ -238,7 +234,7 @@ fn the_command_line_gives_the_same_answers() {
     let header = "ox,oy,oz,dx,dy,dz,tmin\n";
     let (patches, rays) =
         (path("patches.txt", PATCHES), path("rays.csv", &format!("{header}0.5,0.25,2,0,0,-4,0\n9,9,9,0,0,1,\n")));
-    let output = patchlight(&["intersect", &patches, &rays, "--patch", "flat"]);
+    let output = patchlight(dir.path(), &["intersect", &patches, &rays, "--patch", "flat"]);
     let lines: Vec<String> = String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect();
     let numbers: Vec<f64> = lines[0].split(',').map(|word| word.parse().unwrap()).collect();
     // The points of the patch are thirds in single precision, so u and v are off by up to 1e-8.
@@ -248,7 +244,7 @@ fn the_command_line_gives_the_same_answers() {
     assert_eq!((numbers.len(), lines[1].as_str(), lines.len()), (4, "0,,,", 2));
 
     let wrong = path("wrong.csv", &format!("{header}1,2,3,4,5,x,0\n"));
-    let output = patchlight(&["intersect", &patches, &wrong]);
+    let output = patchlight(dir.path(), &["intersect", &patches, &wrong]);
     let message = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(message.contains("wrong.csv: line 2: expected a finite number for dz, found `x`"), "{message}");
@@ -258,13 +254,13 @@ fn the_command_line_gives_the_same_answers() {
 fn what_is_exported_reads_back() {
     let dir = tempfile::tempdir().unwrap();
     let to = |name: &str| dir.path().join(name).to_str().unwrap().to_owned();
-    assert!(patchlight(&["export", "teapot", "-o", &to("teapot.bpt")]).status.success());
+    assert!(patchlight(dir.path(), &["export", "teapot", "-o", &to("teapot.bpt")]).status.success());
     let nets = read_bpt(&fs::read_to_string(to("teapot.bpt")).unwrap()).unwrap();
     assert_eq!(nets.len(), 32);
-    assert!(patchlight(&["export", "teapot", "-o", &to("teapot.obj"), "--steps", "3"]).status.success());
+    assert!(patchlight(dir.path(), &["export", "teapot", "-o", &to("teapot.obj"), "--steps", "3"]).status.success());
     let text = fs::read_to_string(to("teapot.obj")).unwrap();
     let count = |start: &str| text.lines().filter(|line| line.starts_with(start)).count();
     assert_eq!((count("f "), count("vn ")), (32 * 9, count("v ")));
-    let output = patchlight(&["export", "teapot", "-o", &to("teapot.stl")]);
+    let output = patchlight(dir.path(), &["export", "teapot", "-o", &to("teapot.stl")]);
     assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
 }

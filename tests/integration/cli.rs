@@ -1,5 +1,6 @@
 //! The program as people and scripts call it.
 
+use crate::support::patchlight;
 use std::{
     fs,
     path::Path,
@@ -39,18 +40,6 @@ fn folder() -> TempDir {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("ball.toml"), SCENE).unwrap();
     dir
-}
-
-/// Runs the program in a folder, with no display.
-fn patchlight(dir: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_patchlight"))
-        .args(arguments)
-        .current_dir(dir)
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY")
-        .env_remove("WAYLAND_SOCKET")
-        .output()
-        .unwrap()
 }
 
 fn stderr(output: &Output) -> String {

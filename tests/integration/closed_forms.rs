@@ -1,38 +1,7 @@
 //! Pictures whose radiance is known from a formula.
 
-use patchlight::engine::Session;
-use patchlight::film::LinearImage;
-use patchlight::scene::{Location, SceneFile};
-use patchlight::transport::Cancel;
+use crate::support::{assert_near, mean, render};
 use std::f64::consts::{PI, TAU};
-
-pub(crate) fn scene(text: &str) -> SceneFile {
-    SceneFile::parse(&format!("version = 1\n{text}"), Location::Unsaved).expect("the scene is valid")
-}
-
-pub(crate) fn session(text: &str, iterations: u64) -> Session {
-    session_of_seed(text, iterations, 1)
-}
-
-pub(crate) fn session_of_seed(text: &str, iterations: u64, seed: u64) -> Session {
-    let mut session = Session::prepare(&scene(text), seed, None).expect("the scene can be prepared");
-    while session.iterations() < iterations {
-        session.advance(Cancel::NEVER).expect("never cancelled");
-    }
-    session
-}
-
-fn render(text: &str, iterations: u64) -> LinearImage {
-    session(text, iterations).film().image()
-}
-
-fn mean(image: &LinearImage) -> f64 {
-    image.pixels.iter().map(|p| f64::from(p.element_sum()) / 3.0).sum::<f64>() / image.pixels.len() as f64
-}
-
-fn assert_near(found: f64, expected: f64, relative: f64, what: &str) {
-    assert!((found / expected - 1.0).abs() < relative, "{what}: {found}, the formula says {expected}");
-}
 
 /// A camera so narrow that its whole film sees one point.
 fn narrow_camera(position: [f64; 3], target: [f64; 3]) -> String {

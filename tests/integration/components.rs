@@ -1,18 +1,15 @@
 //! Parts of the light add up to the picture, and cost only their own passes.
 
+use crate::support::advanced;
 use patchlight::engine::Session;
 use patchlight::scene::SceneFile;
-use patchlight::transport::{Cancel, Component};
+use patchlight::transport::Component;
 use std::path::Path;
 
 fn rendered(only: Option<Component>) -> Session {
     let mut file = SceneFile::open(Path::new("benches/suite/balls.toml")).expect("the scene is valid");
     (file.scene.film.width, file.scene.film.height) = (48, 48);
-    let mut session = Session::prepare(&file, 5, None).expect("the scene can be prepared").only(only);
-    for _ in 0..4 {
-        session.advance(Cancel::NEVER).expect("never cancelled");
-    }
-    session
+    advanced(Session::prepare(&file, 5, None).expect("the scene can be prepared").only(only), 4)
 }
 
 #[test]

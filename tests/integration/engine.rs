@@ -1,6 +1,6 @@
 //! The engine: drafts first, newest scene wins, pause, restart, failures.
 
-use crate::closed_forms::scene;
+use crate::support::scene;
 use patchlight::engine::{Command, Engine, EngineSettings, Frame, Session, Status};
 use patchlight::scene::SceneFile;
 use patchlight::transport::Cancel;
@@ -59,14 +59,33 @@ fn frame_where(engine: &Engine, condition: impl Fn(&Frame) -> bool) -> Arc<Frame
 
 #[test]
 fn a_draft_comes_first_and_then_the_picture() {
-    let engine = engine();
+    // The worker waits whenever it calls, until this test has looked: so it sees every frame.
+    let (call, called) = crossbeam_channel::bounded(0);
+    let (look, looked) = crossbeam_channel::bounded::<()>(0);
+    let wake = move || {
+        // Both fail once the test is over.
+        let _looked = call.send(()).is_ok() && looked.recv().is_ok();
+    };
+    let engine = Engine::start(EngineSettings { threads: Some(2), seed: 1 }, wake).expect("threads");
     assert_eq!(engine.status(), Status::Idle);
     engine.send(Command::Show(room(0.5)));
-    let first = wait_for(|| engine.newest_frame());
-    assert!(first.draft || first.iteration >= 1, "the first frame is a draft, unless the picture was faster");
-    let later = frame_where(&engine, |frame| frame.iteration >= 3);
-    assert_eq!((later.image.width, later.image.height, later.generation), (64, 48, 1));
-    assert!(later.stats.photons_emitted > 0 && later.stats.seconds > 0.0 && later.stats.error_estimate.is_some());
+    let mut frames = Vec::new();
+    while frames.last().is_none_or(|frame: &Arc<Frame>| frame.draft || frame.stats.error_estimate.is_none()) {
+        called.recv_timeout(PATIENCE).expect("the engine gets there");
+        frames.extend(engine.newest_frame());
+        look.send(()).expect("the engine waits");
+    }
+    drop((called, look));
+    let size = |frame: &Frame| (frame.image.width, frame.image.height);
+    let (drafts, pictures) = frames.split_at(frames.iter().take_while(|frame| frame.draft).count());
+    assert_eq!(drafts.first().map(|frame| size(frame)), Some((16, 12)), "the first frame is a coarse draft");
+    assert!(drafts.iter().all(|draft| draft.iteration == 0 && draft.generation == 1));
+    assert!(drafts.is_sorted_by(|a, b| a.image.width < b.image.width), "each is finer than the one before");
+    assert!(pictures.iter().all(|frame| !frame.draft && size(frame) == (64, 48) && frame.generation == 1));
+    assert_eq!(pictures[0].iteration, 1);
+    assert!(pictures.is_sorted_by(|a, b| a.iteration < b.iteration));
+    let last = pictures.last().expect("a picture with an estimate");
+    assert!(last.stats.photons_emitted > 0 && last.stats.seconds > 0.0);
 }
 
 /// During a fast drag every edit outdates the one before: pictures appear all the same, in order, and the last edit's

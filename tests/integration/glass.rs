@@ -1,5 +1,6 @@
-//! Photons in a closed glass body of Bezier patches: none ends up on the wrong side.
+//! Glass bodies: photons in a closed body of Bezier patches stay on their side, and nested bodies keep all light.
 
+use crate::support::{ball, render};
 use glam::DVec3;
 use patchlight::geometry::bezier::{ControlNet, Patch};
 use patchlight::geometry::{Aggregate, Primitive};
@@ -72,6 +73,31 @@ fn refract(direction: DVec3, side: DVec3, eta: f64) -> Option<DVec3> {
     let cos = -direction.dot(side);
     let sin_squared = (1.0 - cos * cos) / (eta * eta);
     (sin_squared < 1.0).then(|| direction / eta + (cos / eta - (1.0 - sin_squared).sqrt()) * side)
+}
+
+/// Nested glass that absorbs nothing, under an even sky of radiance 1: whatever way light goes, it arrives with radiance 1.
+#[test]
+fn nested_glass_under_an_even_sky_cannot_be_seen() {
+    let body = |name: &str, radius: f64, material: &str| ball(name, 0.0, radius, material);
+    let text = format!(
+        "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 24\nheight = 24
+        [render]\nbackground = [1, 1, 1]\nmax_bounces = 60
+        [[material]]\nname = \"water\"\ntype = \"glass\"\nior = 1.33
+        [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.7
+        [[material]]\nname = \"air\"\ntype = \"glass\"\nior = 1\n{}{}{}",
+        body("pond", 1.2, "water"),
+        body("marble", 0.8, "glass"),
+        body("bubble", 0.4, "air"),
+    );
+    let image = render(&text, 32);
+    let inside = |k: &usize| (8..16).contains(&(k % 24)) && (8..16).contains(&(k / 24));
+    let inside: Vec<f64> = (0..24 * 24).filter(inside).map(|k| f64::from(image.pixels[k].x)).collect();
+    let mean = inside.iter().sum::<f64>() / inside.len() as f64;
+    let variance = inside.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / inside.len() as f64;
+    let standard_error = (variance / inside.len() as f64).sqrt();
+    // Roulette makes noise, no bias; 60 events lose less than 1e-4 of the light.
+    assert!((mean - 1.0).abs() < 4.0 * standard_error + 1e-4, "{mean}, standard error {standard_error}");
+    assert!(standard_error < 0.01, "{standard_error}");
 }
 
 #[test]

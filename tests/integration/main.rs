@@ -12,7 +12,9 @@ mod gloss;
 mod indirect_shadow;
 mod passes;
 mod plan;
+mod reuse;
 mod skipping;
+mod support;
 mod texture;
 #[cfg(feature = "gui")]
 mod window;

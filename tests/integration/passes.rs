@@ -1,16 +1,11 @@
 //! Properties of the passes themselves: energy, caustics at known places, independence of threads.
 
-use crate::closed_forms::{scene, session};
+use crate::support::{mean, session, world};
 use glam::DVec3;
-use patchlight::engine::{FilmSums, Session};
+use patchlight::engine::FilmSums;
 use patchlight::geometry::Primitive;
-use patchlight::scene::Location;
 use patchlight::transport::{Cancel, Photon, Plan, camera_pass, caustic_photon_pass, global_photon_pass};
-use patchlight::world::{World, prepare};
-
-fn world(text: &str) -> World {
-    prepare(&scene(text).scene, &Location::Unsaved, None).expect("the scene can be prepared")
-}
+use patchlight::world::World;
 
 fn caustic_photons(world: &World, iterations: u64) -> Vec<Photon> {
     let plan = Plan::new(world);
@@ -171,20 +166,7 @@ fn a_draft_changes_nothing_and_resembles_the_picture() {
     assert_eq!(*session.film(), before);
     assert!(draft.draft && draft.generation == 7 && draft.iteration == 0);
     assert_eq!((draft.image.width, draft.image.height), (20, 15));
-    let mean = |image: &patchlight::film::LinearImage| {
-        image.pixels.iter().map(|p| f64::from(p.element_sum())).sum::<f64>() / image.pixels.len() as f64
-    };
     let ratio = mean(&draft.image) / mean(&session.film().image());
     // 300 pixels with one sample each, edges and noise included.
     assert!((ratio - 1.0).abs() < 0.2, "{ratio}");
-}
-
-/// Prepared data that an edit does not touch is taken over, and the picture is the same as if it were not.
-#[test]
-fn edits_reuse_what_they_do_not_touch() {
-    let edited = MIXED.replace("radius = 0.5", "radius = 0.4");
-    let first = session(MIXED, 1);
-    let mut second = Session::prepare(&scene(&edited), 1, Some(&first)).expect("the scene can be prepared");
-    second.advance(Cancel::NEVER).expect("never cancelled");
-    assert_eq!(second.film().image(), session(&edited, 1).film().image());
 }

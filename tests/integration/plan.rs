@@ -1,56 +1,17 @@
 //! What the plan renders and what it skips.
 
-use crate::closed_forms::scene;
-use patchlight::scene::Location;
+use crate::support::{HEAD, ball, floor, world};
 use patchlight::transport::{Plan, PlanItem};
-use patchlight::world::prepare;
 
 const DIRECT: &str = "direct light";
 const CAUSTICS: &str = "caustics";
 const SEEN: &str = "caustics in mirrors and glass";
 const INTERREFLECTION: &str = "interreflection";
 
-pub(crate) const HEAD: &str = r#"
-    [camera]
-    position = [0, 0, 4]
-    target = [0, 0, 0]
-    fov_y = 40
-    [[material]]
-    name = "white"
-    type = "diffuse"
-    albedo = [0.5, 0.5, 0.5]
-    [[material]]
-    name = "black"
-    type = "diffuse"
-    albedo = [0, 0, 0]
-    [[material]]
-    name = "mirror"
-    type = "mirror"
-    reflectance = [1, 1, 1]
-    [[light]]
-    name = "lamp"
-    type = "point"
-    position = [0, 3, 0]
-    intensity = [1, 1, 1]
-"#;
-
-pub(crate) fn ball(name: &str, x: f64, radius: f64, material: &str) -> String {
-    format!(
-        "[[object]]\nname = \"{name}\"\ntype = \"sphere\"\ncenter = [{x}, 0, 0]\nradius = {radius}\nmaterial = \"{material}\"\n"
-    )
-}
-
-pub(crate) fn floor(material: &str) -> String {
-    format!(
-        "[[object]]\nname = \"floor\"\ntype = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\nmaterial = \"{material}\"\n"
-    )
-}
-
 /// What is rendered of a scene with these objects.
 fn rendered(max_bounces: u32, objects: &[String]) -> Vec<String> {
     let text = format!("{HEAD}{}[render]\nmax_bounces = {max_bounces}\n", objects.concat());
-    let world = prepare(&scene(&text).scene, &Location::Unsaved, None).expect("the scene can be prepared");
-    let notes = Plan::new(&world).notes;
+    let notes = Plan::new(&world(&text)).notes;
     assert!(notes.iter().all(|note| !note.reason.is_empty()), "every decision has a reason: {notes:?}");
     notes.into_iter().filter(|note| note.rendered).map(|note| note.item.to_string()).collect()
 }
@@ -101,7 +62,7 @@ fn two_lamps(objects: &str) -> String {
 fn lamps_that_light_nothing_in_view_get_few_paths() {
     let plan = |objects: &str| {
         let text = two_lamps(&format!("{}{objects}", floor("white")));
-        Plan::new(&prepare(&scene(&text).scene, &Location::Unsaved, None).expect("the scene can be prepared"))
+        Plan::new(&world(&text))
     };
     // The floor is an endless plane: light from behind the wall reaches what the camera sees of it in front.
     let closed =
@@ -145,10 +106,7 @@ fn what_is_seen_in_a_mirror_is_in_view() {
 "#
         )
     };
-    let paths = |text: String| {
-        let world = prepare(&scene(&text).scene, &Location::Unsaved, None).expect("the scene can be prepared");
-        Plan::new(&world).global_paths[1]
-    };
+    let paths = |text: String| Plan::new(&world(&text)).global_paths[1];
     let (unseen, seen) = (paths(text("")), paths(text(mirror)));
     assert!(seen > 2 * unseen, "{seen} {unseen}");
 }

@@ -1,9 +1,7 @@
 //! What a scene does not need is not done: the counters of whole iterations.
 
-use crate::closed_forms::scene;
-use crate::plan::{HEAD, ball, floor};
-use patchlight::engine::{Counters, Session};
-use patchlight::transport::Cancel;
+use crate::support::{HEAD, ball, floor, session_of_seed};
+use patchlight::engine::Counters;
 
 const ITERATIONS: u64 = 6;
 
@@ -11,11 +9,7 @@ const ITERATIONS: u64 = 6;
 fn counters(max_bounces: u32, objects: &[String]) -> Counters {
     let film = "[film]\nwidth = 32\nheight = 32\n";
     let text = format!("{HEAD}{film}{}[render]\nmax_bounces = {max_bounces}\n", objects.concat());
-    let mut session = Session::prepare(&scene(&text), 3, None).expect("the scene can be prepared");
-    for _ in 0..ITERATIONS {
-        session.advance(Cancel::NEVER).expect("never cancelled");
-    }
-    session.stats().counters
+    session_of_seed(&text, ITERATIONS, 3).stats().counters
 }
 
 /// A floor with a picture on it.

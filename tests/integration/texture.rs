@@ -1,9 +1,10 @@
 //! Textures and relief maps finer than pixels.
 
+use crate::support::advanced;
 use patchlight::engine::Session;
 use patchlight::film::LinearImage;
 use patchlight::scene::SceneFile;
-use patchlight::transport::{Cancel, Component};
+use patchlight::transport::Component;
 use std::path::Path;
 
 /// A floor seen from above beside a bright wall, with 24 x 24 tiles: white halves that look at the wall, grey ones that look away.
@@ -66,11 +67,7 @@ fn interreflection(file: &SceneFile, side: u32, iterations: u64) -> LinearImage 
     let mut file = file.clone();
     (file.scene.film.width, file.scene.film.height) = (side, side);
     let session = Session::prepare(&file, 1, None).expect("the scene can be prepared");
-    let mut session = session.only(Some(Component::Interreflection));
-    for _ in 0..iterations {
-        session.advance(Cancel::NEVER).expect("never cancelled");
-    }
-    session.film().image()
+    advanced(session.only(Some(Component::Interreflection)), iterations).film().image()
 }
 
 #[test]

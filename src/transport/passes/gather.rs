@@ -323,9 +323,13 @@ mod tests {
     }
 
     fn gathered(world: &World, maps: &Maps, point: VisiblePoint) -> Rgb {
+        gathered_in(4, world, maps, point)
+    }
+
+    fn gathered_in(iteration: u64, world: &World, maps: &Maps, point: VisiblePoint) -> Rgb {
         let seen = CameraBatch { visible_points: vec![point], ..CameraBatch::default() };
-        let (found, _) = gather(world, &Plan::new(world), maps, &seen, 4, Cancel::NEVER).expect("never cancelled");
-        found[0].radiance
+        let found = gather(world, &Plan::new(world), maps, &seen, iteration, Cancel::NEVER);
+        found.expect("never cancelled").0[0].radiance
     }
 
     /// Even photons give the radiance `throughput albedo / pi E`, in the middle of the floor and, where the disc is cut, at its edge.
@@ -336,10 +340,14 @@ mod tests {
         let expected = 0.5 * 0.5 / PI * IRRADIANCE;
         for (u, tolerance) in [(0.5, 0.005), (0.0, 0.02), (0.03, 0.01)] {
             for maps in [[&photons[..], &[], &[]], [&[], &photons[..], &[]]] {
-                let found = gathered(&world, &Maps::build(&[], maps), point(&world, u));
-                // Photons 1/200 apart in discs of 0.1 and more; half a row of them is uncertain at the edge.
-                let error = (found / expected - Rgb::ONE).abs().max_element();
-                assert!(error < tolerance, "{found} instead of {expected} at {u}");
+                let maps = Maps::build(&[], maps);
+                // In one iteration of four the pixel gathers for its neighbours, too.
+                for iteration in 4..12 {
+                    let found = gathered_in(iteration, &world, &maps, point(&world, u));
+                    // Photons 1/200 apart in discs of 0.1 and more; half a row of them is uncertain at the edge.
+                    let error = (found / expected - Rgb::ONE).abs().max_element();
+                    assert!(error < tolerance, "{found} instead of {expected} at {u} in iteration {iteration}");
+                }
             }
         }
     }
