@@ -111,7 +111,7 @@ pub(crate) fn photon_radiance(world: &World, plan: &Plan, seed: u64, iteration: 
     let maps = Maps::build(&caustic.photons, [&global.photons, &global.indirect_caustics, &global.glossy]);
     let band = |rows: &Rows| {
         let seen = camera_pass(world, plan, rows, seed, iteration, never).expect("never cancelled");
-        let (gathered, _) = gather(world, plan, &maps, &seen, iteration, never).expect("never cancelled");
+        let (gathered, _) = gather(world, plan, &maps, &seen, 1, iteration, never).expect("never cancelled");
         Band::new(world, plan, rows, seen, &gathered, iteration)
     };
     let bands: Vec<Band> = plan.bands(iteration).par_iter().map(band).collect();

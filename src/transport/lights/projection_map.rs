@@ -168,7 +168,7 @@ mod tests {
         // A third of a cell aside, so that bins also show where in the cells samples lie.
         let aside = DVec2::splat(1.0 / (3.0 * SIDE as f64));
         let density = |p: DVec2| {
-            let cell = (p * SIDE as f64).as_uvec2();
+            let cell = (p * SIDE as f64).as_ivec2();
             let is_marked = cells[cell.y as usize * SIDE + cell.x as usize];
             DEFENSIVE_FRACTION + if is_marked { (1.0 - DEFENSIVE_FRACTION) * 4096.0 / marked } else { 0.0 }
         };

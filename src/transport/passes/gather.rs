@@ -328,7 +328,7 @@ mod tests {
 
     fn gathered_in(iteration: u64, world: &World, maps: &Maps, point: VisiblePoint) -> Rgb {
         let seen = CameraBatch { visible_points: vec![point], ..CameraBatch::default() };
-        let found = gather(world, &Plan::new(world), maps, &seen, iteration, Cancel::NEVER);
+        let found = gather(world, &Plan::new(world), maps, &seen, 1, iteration, Cancel::NEVER);
         found.expect("never cancelled").0[0].radiance
     }
 
