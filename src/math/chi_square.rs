@@ -26,7 +26,7 @@ pub(crate) fn assert_has_density(
     assert!(p_value >= SIGNIFICANCE, "{what}: the samples do not have the density, p = {p_value:e}");
 }
 
-/// Asserts that these counts are draws with these expected counts.
+/// Asserts that counts of independent draws agree with the expected counts.
 pub(crate) fn assert_has_frequencies(what: &str, counts: &[u64], expected: &[f64]) {
     let p_value = p_value(counts, expected);
     assert!(p_value >= SIGNIFICANCE, "{what}: {counts:?} instead of {expected:?}, p = {p_value:e}");
@@ -56,7 +56,7 @@ fn p_value_of_sampler(mut sample: impl FnMut(&mut Sampler) -> Option<DVec2>, den
     p_value(&counts, &expected)
 }
 
-/// The probability of counts at least as far from the expected counts, if those are true.
+/// The probability that counts are at least as far from the expected counts as these, for a correct sampler.
 fn p_value(counts: &[u64], expected: &[f64]) -> f64 {
     let term = |count: u64, expected: f64| (count as f64 - expected).powi(2) / expected;
     let (mut statistic, mut bins) = (0.0, 0);
@@ -88,8 +88,8 @@ fn upper_tail(x: f64, degrees: usize) -> f64 {
     (0..degrees.div_ceil(2)).scan((-half).exp(), next).sum()
 }
 
-/// Coordinates in the unit square of directions within an angle of +z: equal areas are equal solid angles. The second value is the solid
-/// angle of the square, steradians; `None` beyond the angle.
+/// Coordinates in the unit square of a unit direction whose z is at least `least_z`: equal areas are equal solid angles. `None` for
+/// directions outside this cap.
 pub(crate) fn cap_square(direction: DVec3, least_z: f64) -> Option<DVec2> {
     let turn = direction.y.atan2(direction.x) / TAU;
     let square = DVec2::new(turn - turn.floor(), (1.0 - direction.z) / (1.0 - least_z));

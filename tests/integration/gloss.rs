@@ -117,7 +117,7 @@ fn neighbours_share_what_their_lobes_show() {
     let squares = |image: &[f64]| image.iter().zip(&truth).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
     // 0.36 with a standard error of 0.01. The truth is the mean of the runs alone, so that they look 1/64 better than they are.
     let (ratio, error) = statistics(&|[alone, sharing]| squares(sharing) / squares(alone));
-    assert!(ratio + 5.0 * error < 0.5, "{ratio}, standard error {error}");
+    assert!(ratio + 5.0 * error < 0.43, "{ratio}, standard error {error}");
     // The blur over some pixels, which shrinks with the discs, changes the mean by 0.009; its standard error is below 0.001.
     let (bias, error) = statistics(&|[alone, sharing]| sharing.iter().sum::<f64>() / alone.iter().sum::<f64>() - 1.0);
     assert!(bias.abs() + 5.0 * error < 0.02, "{bias}, standard error {error}");

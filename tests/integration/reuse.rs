@@ -118,8 +118,11 @@ fn the_picture_does_not_depend_on_what_was_reused() {
     let file = scene(folder.path());
     let first = advanced(Session::prepare(&file, 1, None).expect("the scene can be prepared"), 1);
     let mut edited = file.clone();
-    bezier_point(&mut edited.scene, 0, 0).y += 0.2;
-    bezier_point(&mut edited.scene, 1, 0).x += 0.1;
+    for object in [0, 1] {
+        let Shape::Bezier(bezier) = &mut edited.scene.objects[object].shape else { panic!("no patches") };
+        let net = &mut Arc::make_mut(&mut bezier.patches)[0];
+        net.points.as_flattened_mut().iter_mut().for_each(|point| *point += glam::DVec3::new(0.3, 0.4, 0.2));
+    }
     let image =
         |previous| advanced(Session::prepare(&edited, 1, previous).expect("it can be prepared"), 2).film().image();
     let reused = image(Some(&first));
