@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 /// Cells along a side of the square of directions.
 const SIDE: usize = 64;
-/// Probe rays along a side of a cell; one where there are so many lights that points sample only some of them.
+/// Probe rays along a side of a cell; one in scenes where points sample only some of many lights.
 const PROBES_ALONG_SIDE: u64 = 2;
 /// Fraction of the paths that leave in all directions alike, in case the probes missed a specular surface (defensive sampling).
 const DEFENSIVE_FRACTION: f64 = 0.03;

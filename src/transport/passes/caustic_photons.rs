@@ -98,7 +98,7 @@ impl<'a> CausticTracer<'a> {
         Self { world, plan, caustics, iteration, to_map, found: CausticPhotons::default(), branches: Vec::new() }
     }
 
-    /// Traces one of so many paths of a light.
+    /// Traces one of `path_count` paths of a light.
     fn trace(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
         self.found.counters.caustic_paths += 1;
         let emitted = self.caustics.projection_maps[light].emit(&self.world.lights[light], &mut sampler);

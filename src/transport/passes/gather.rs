@@ -110,6 +110,15 @@ struct Gatherer<'a> {
     radii: IterationRadii<'a>,
 }
 
+/// One density estimate of a point.
+struct Estimate {
+    kind: MapKind,
+    /// Whether the picture shows the light of the map at the point.
+    shows: bool,
+    /// Radius of the disc, scene units.
+    radius: f64,
+}
+
 impl Gatherer<'_> {
     fn interleaving(&self, points: &[VisiblePoint]) -> Interleaving {
         if self.maps.global.is_empty() {
@@ -149,17 +158,10 @@ impl Gatherer<'_> {
     ) -> Gathered {
         let mut found = Gathered::default();
         let compares = self.plan.compares_bandwidths(point.pixel, self.iteration);
-        // The second value tells whether the picture shows the map's light here.
-        let radii: ArrayVec<(MapKind, bool, f64), 4> = MapKind::ALL
-            .into_iter()
-            .filter(|kind| self.needs(*kind, point))
-            .map(|kind| (kind, self.shows(kind, point)))
-            .filter(|(_, shows)| compares || *shows)
-            .map(|(kind, shows)| (kind, shows, self.radii.at(kind, point)))
-            .collect();
-        let largest = radii.iter().fold(0.0, |largest, (_, _, radius)| radius.max(largest));
+        let estimates = self.estimates(point, compares);
+        let largest = estimates.iter().fold(0.0, |largest, estimate| estimate.radius.max(largest));
         let polygon = self.visibility_polygon(point, largest * if compares { WIDER } else { 1.0 }, counters);
-        for (kind, shows, radius) in radii {
+        for Estimate { kind, shows, radius } in estimates {
             let light = match shared {
                 Some(irradiance) if kind == MapKind::Global => {
                     point.throughput * irradiance * estimate::diffuse_scattering(point, radius)
@@ -192,6 +194,18 @@ impl Gatherer<'_> {
             counters.dropped_samples += 1;
             Gathered::default()
         }
+    }
+
+    /// The density estimates that a point needs; with `compares` also those whose light the picture does not show.
+    #[inline]
+    fn estimates(&self, point: &VisiblePoint, compares: bool) -> ArrayVec<Estimate, 4> {
+        MapKind::ALL
+            .into_iter()
+            .filter(|kind| self.needs(*kind, point))
+            .map(|kind| (kind, self.shows(kind, point)))
+            .filter(|(_, shows)| compares || *shows)
+            .map(|(kind, shows)| Estimate { kind, shows, radius: self.radii.at(kind, point) })
+            .collect()
     }
 
     /// Whether points gather the photons of a map for their neighbours, too: interreflection, in a draft also indirect caustics.

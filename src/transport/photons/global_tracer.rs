@@ -69,7 +69,7 @@ impl<'a> GlobalPhotonTracer<'a> {
         Self { world, glossy_mis, stored: GlobalPhotons::default() }
     }
 
-    /// Traces one of so many paths of a light.
+    /// Traces one of `path_count` paths of a light.
     pub(in crate::transport) fn trace(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
         let path = self.start(light, path_count, &mut sampler);
         self.follow(path, &mut sampler);

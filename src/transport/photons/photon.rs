@@ -19,7 +19,7 @@ pub struct Photon {
 }
 
 impl Photon {
-    /// The photon that a light path leaves at a vertex after so many scattering events.
+    /// The photon that a light path leaves at a vertex after `bounces` scattering events.
     #[inline]
     pub(in crate::transport) fn arrived(world: &World, vertex: &Vertex, flux: Rgb, bounces: u32) -> Self {
         Self {

@@ -8,7 +8,7 @@ const LEAST_PATHS: f64 = 16_384.0;
 /// Most paths of a full iteration: more would make an iteration last longer than a user waits for the next frame.
 const MOST_PATHS: f64 = 524_288.0;
 
-/// Paths of a full iteration for a film of so many pixels, within [`LEAST_PATHS`] and [`MOST_PATHS`].
+/// Paths of a full iteration for a film of `pixels` pixels, within [`LEAST_PATHS`] and [`MOST_PATHS`].
 pub(super) fn of_pixels(pixels: usize, paths_per_pixel: f64) -> f64 {
     (pixels as f64 * paths_per_pixel).clamp(LEAST_PATHS, MOST_PATHS)
 }

@@ -134,7 +134,7 @@ fn sample_pixel(
     }
 }
 
-/// Which of so many groups of a pixel's samples gathers photons. At random, because a fixed choice would keep to one part of the pixel:
+/// The index of the group of a pixel's samples that gathers photons, of `groups` groups. It is random, because a fixed choice would keep to one part of the pixel:
 /// every n-th point of the samples' sequence does.
 fn gathering_group(plan: &Plan, pixel: u32, groups: usize, seed: u64, iteration: u64) -> usize {
     if groups < 2 {
