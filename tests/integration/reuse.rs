@@ -126,6 +126,6 @@ fn the_picture_does_not_depend_on_what_was_reused() {
     let image =
         |previous| advanced(Session::prepare(&edited, 1, previous).expect("it can be prepared"), 2).film().image();
     let reused = image(Some(&first));
-    assert_eq!(reused, image(None));
-    assert_ne!(reused, advanced(first, 2).film().image(), "the edit shows");
+    assert!(reused == image(None), "the pictures differ");
+    assert!(reused != advanced(first, 2).film().image(), "the edit shows");
 }
