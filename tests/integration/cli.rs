@@ -162,7 +162,7 @@ fn a_picture_too_large_for_the_memory_is_refused() {
         env!("CARGO_BIN_EXE_patchlight")
     );
     let output = Command::new("sh").args(["-c", &render]).current_dir(dir.path()).output().unwrap();
-    fails(&output, 1, &["a picture of 16384 x 16384 pixels takes about", "more than there is"]);
+    fails(&output, 1, &["a picture of 16384 x 16384 pixels takes about", "more than is free"]);
     assert_eq!(names(dir.path()), ["ball.toml"], "nothing was written");
 }
 
