@@ -1,4 +1,5 @@
-//! One iteration of stochastic progressive photon mapping.
+//! One iteration of stochastic progressive photon mapping \[HJ09\]: photon passes, maps, then camera and gather pass band by band.
+//! [`Session`](super::Session) commits the result to the film.
 
 use super::frame::PassSeconds;
 use crate::transport::{

@@ -3,7 +3,7 @@
 use super::emission::{self, Emission, Origin};
 use super::light_sampler::MOST_SAMPLED;
 use crate::geometry::Primitive;
-use crate::math::{Ray, Sampler, Stream, octahedral};
+use crate::math::{Sampler, Stream, octahedral};
 use crate::world::{Light, World};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -119,7 +119,7 @@ fn probe_hits_specular(world: &World, light: &Light, light_index: u64, cell: usi
     if origin.normal.is_some_and(|normal| normal.dot(direction) <= 0.0) {
         return false;
     }
-    let ray = Ray { t_min: 1e-9 * world.radius, ..Ray::new(origin.position, direction) };
+    let ray = emission::ray_from_light(world, origin.position, direction);
     world.aggregate.closest_hit(&ray).is_some_and(|hit| world.is_specular(hit.primitive))
 }
 

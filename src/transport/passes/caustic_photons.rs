@@ -5,7 +5,7 @@
 
 use crate::math::{Ray, Rgb, Sampler, Stream};
 use crate::transport::counters::Counters;
-use crate::transport::lights::emission::Emission;
+use crate::transport::lights::emission::{self, Emission};
 use crate::transport::pass::Cancel;
 use crate::transport::photons::Photon;
 use crate::transport::photons::path_blocks::{concat, path_blocks};
@@ -105,7 +105,7 @@ impl<'a> CausticTracer<'a> {
         let Some(Emission { origin, direction, flux }) = emitted else { return };
         let flux = flux / path_count as f32;
         let weak = WEAK_BRANCH * flux.max_element();
-        let ray = Ray { t_min: 1e-9 * self.world.radius, ..Ray::new(origin, direction) };
+        let ray = emission::ray_from_light(self.world, origin, direction);
         self.branches.push(Branch { ray, flux, media: Media::default(), bounces: 0 });
         while let Some(branch) = self.branches.pop() {
             self.follow(branch, weak, &mut sampler);

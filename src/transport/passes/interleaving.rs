@@ -4,14 +4,11 @@
 
 use crate::transport::density::bandwidth::WIDER;
 use crate::transport::plan::InterleavedGrid;
-use crate::transport::points::VisiblePoint;
+use crate::transport::points::{LEAST_COS_OF_NEIGHBOURS, VisiblePoint};
 
 /// Greatest distance between a point and a neighbour that takes its irradiance, in radii of the point's disc: the blur that this adds
 /// is small beside that of the disc.
 const MAX_DISTANCE: f64 = 0.25;
-/// The least cosine between the normals of a point and of the neighbour that takes its irradiance: 2.5 degrees.
-const LEAST_COS: f32 = 0.999;
-
 /// The points that gather irradiance, and the points that take it from them.
 #[derive(Debug, Default)]
 pub(super) struct Interleaving {
@@ -68,7 +65,7 @@ impl VisiblePoint {
     /// Whether the same photons count at both points, under about the same normal.
     fn is_similar(&self, other: &Self) -> bool {
         (self.tag, self.photon_bounces) == (other.tag, other.photon_bounces)
-            && self.n_side.dot(other.n_side) >= LEAST_COS
+            && self.n_side.dot(other.n_side) >= LEAST_COS_OF_NEIGHBOURS
     }
 }
 

@@ -6,13 +6,10 @@
 use crate::math::Rgb;
 use crate::transport::pass::Rows;
 use crate::transport::plan::Plan;
-use crate::transport::points::VisiblePoint;
+use crate::transport::points::{LEAST_COS_OF_NEIGHBOURS, VisiblePoint};
 use crate::world::{Lobe, World};
 use glam::Vec3;
 use rayon::prelude::*;
-
-/// The least cosine between the normals of neighbours: 2.5 degrees.
-const LEAST_COS: f32 = 0.999;
 
 /// A pixel's sample of the light in its Phong lobe.
 #[derive(Clone, Copy, Debug)]
@@ -104,7 +101,7 @@ impl LobeSample {
     fn is_neighbour(&self, other: &Self) -> bool {
         self.tag == other.tag
             && self.position.distance_squared(other.position) <= self.reach * self.reach
-            && self.normal.dot(other.normal) >= LEAST_COS
+            && self.normal.dot(other.normal) >= LEAST_COS_OF_NEIGHBOURS
     }
 }
 

@@ -78,7 +78,7 @@ impl<'a> GlobalPhotonTracer<'a> {
     fn start(&mut self, light: usize, path_count: u64, sampler: &mut Sampler) -> PhotonPath {
         let Emission { origin, direction, flux } = emission::emit(&self.world.lights[light], sampler);
         self.stored.counters.global_paths += 1;
-        let ray = Ray { t_min: 1e-9 * self.world.radius, ..Ray::new(origin, direction) };
+        let ray = emission::ray_from_light(self.world, origin, direction);
         PhotonPath {
             light,
             origin,

@@ -36,7 +36,7 @@ impl fmt::Display for PlanItem {
             Self::Caustics => "caustics",
             Self::IndirectlySeenCaustics => "caustics in mirrors and glass",
             Self::Interreflection => "interreflection",
-            Self::GlossyPhotons => "photons for gloss",
+            Self::GlossyPhotons => "photons in Phong lobes",
             Self::PathsOutOfView => "most paths of lights out of view",
             Self::Textures => "textures",
             Self::Background => "background",

@@ -24,4 +24,5 @@ pub(in crate::transport) use glossy_mis::{MisVertex, ViewingLobe};
 pub(in crate::transport) use medium::Media;
 pub(in crate::transport) use specular::{SpecularEvent, roulette};
 pub(in crate::transport) use vertex::Vertex;
+pub(in crate::transport) use visible_point::LEAST_COS_OF_NEIGHBOURS;
 pub use visible_point::{Clearance, Facet, VisiblePoint};

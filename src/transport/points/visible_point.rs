@@ -69,6 +69,9 @@ pub struct Clearance {
     pub standing: f64,
 }
 
+/// The least cosine between the normals of two points that use each other's light: 2.5 degrees, over which light hardly changes.
+pub(in crate::transport) const LEAST_COS_OF_NEIGHBOURS: f32 = 0.999;
+
 impl Clearance {
     /// No object is near.
     pub(in crate::transport) const FREE: Self = Self { any: f64::INFINITY, standing: f64::INFINITY };

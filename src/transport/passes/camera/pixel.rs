@@ -7,8 +7,6 @@ use arrayvec::ArrayVec;
 pub(super) struct Pixel {
     /// Row by row from the top of the film.
     pub(super) index: u32,
-    /// Weight in the pixel of the visible points that the present path leaves; 0 for a path that leaves none.
-    pub(super) gather_weight: f32,
     /// Whether any of the first vertices has a texture.
     pub(super) is_textured: bool,
     facets: ArrayVec<Facet, MOST_SAMPLES>,
@@ -18,7 +16,7 @@ pub(super) struct Pixel {
 impl Pixel {
     /// A pixel without paths.
     pub(super) fn new() -> Self {
-        Self { index: 0, gather_weight: 0.0, is_textured: false, facets: ArrayVec::new(), has_relief: false }
+        Self { index: 0, is_textured: false, facets: ArrayVec::new(), has_relief: false }
     }
 
     /// Begins another pixel.

@@ -118,8 +118,8 @@ fn sample_pixel(
     let first_point = tracer.batch.visible_points.len();
     for (index, FirstRay { sampler, ray, hit }) in first_rays.iter_mut().enumerate() {
         let gathers = (first..first + gathering).contains(&index);
-        pixel.gather_weight = if gathers { 1.0 / gathering as f32 } else { 0.0 };
-        samples.include(tracer.trace(pixel, *ray, *hit, sampler));
+        let gather_weight = if gathers { 1.0 / gathering as f32 } else { 0.0 };
+        samples.include(tracer.trace(pixel, *ray, *hit, gather_weight, sampler));
     }
     samples.is_heterogeneous = on_an_edge || pixel.is_textured;
     let CameraBatch { visible_points, facets, counters, .. } = &mut tracer.batch;

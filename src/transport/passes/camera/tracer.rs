@@ -46,6 +46,8 @@ struct Branch {
     /// Length of the path so far, scene units.
     distance: f64,
     last: LastEvent,
+    /// Weight in the pixel of the visible points that the path leaves; 0 for a path that leaves none.
+    gather_weight: f32,
     /// The last Phong lobe of the path.
     viewing_lobe: Option<ViewingLobe>,
 }
@@ -66,9 +68,17 @@ impl<'a> CameraTracer<'a> {
         Self { world, plan, direct, batch, branches: ArrayVec::new() }
     }
 
-    /// Traces a path whose first ray met `hit`; returns the radiance of emission and direct light, and leaves visible points.
+    /// Traces a path whose first ray met `hit`; returns the radiance of emission and direct light. Leaves visible points with this weight
+    /// in the pixel, none for 0.
     #[inline]
-    pub(super) fn trace(&mut self, pixel: &mut Pixel, ray: Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Rgb {
+    pub(super) fn trace(
+        &mut self,
+        pixel: &mut Pixel,
+        ray: Ray,
+        hit: Option<Hit>,
+        gather_weight: f32,
+        sampler: &mut Sampler,
+    ) -> Rgb {
         let first = Branch {
             ray,
             throughput: Rgb::ONE,
@@ -77,6 +87,7 @@ impl<'a> CameraTracer<'a> {
             splits: 0,
             distance: 0.0,
             last: LastEvent::Specular,
+            gather_weight,
             viewing_lobe: None,
         };
         let mut radiance = self.follow(first, hit, pixel, sampler);
@@ -115,7 +126,7 @@ impl<'a> CameraTracer<'a> {
             radiance = branch.throughput * direct;
         }
         // A texture that is black here may not be black elsewhere in the pixel.
-        if pixel.gather_weight > 0.0 && (vertex.scatters() || is_textured_first) {
+        if branch.gather_weight > 0.0 && (vertex.scatters() || is_textured_first) {
             self.batch.visible_points.push(self.visible_point(&branch, &vertex, pixel));
         }
         self.branch_off(&branch, &vertex, sampler);
@@ -145,7 +156,7 @@ impl<'a> CameraTracer<'a> {
             n_side: vertex.n_side.as_vec3(),
             n_shade: vertex.n_shade.as_vec3(),
             wo: vertex.wo.as_vec3(),
-            throughput: branch.throughput * pixel.gather_weight,
+            throughput: branch.throughput * branch.gather_weight,
             scattering: vertex.scattering,
             footprint: footprint as f32,
             primitive: vertex.point.hit.primitive,
@@ -236,6 +247,7 @@ impl Branch {
             splits: self.splits,
             distance: self.distance,
             last: LastEvent::Specular,
+            gather_weight: self.gather_weight,
             viewing_lobe: self.viewing_lobe,
         }
     }
@@ -258,10 +270,9 @@ mod tests {
         let plan = Plan::new(&world);
         let mut tracer = CameraTracer::new(&world, &plan, CameraBatch::default());
         let mut pixel = Pixel::new();
-        pixel.gather_weight = 0.5;
         let ray = Ray::new(DVec3::new(0.1, 0.0, 4.0), DVec3::NEG_Z);
         let hit = world.aggregate.closest_hit(&ray);
-        let radiance = tracer.trace(&mut pixel, ray, hit, &mut Sampler::new(1, Stream::Test, 0, 0));
+        let radiance = tracer.trace(&mut pixel, ray, hit, 0.5, &mut Sampler::new(1, Stream::Test, 0, 0));
         (radiance, tracer.batch)
     }
 
