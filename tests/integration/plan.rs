@@ -1,25 +1,25 @@
-//! What the plan renders and what it skips.
+//! The components that the plan renders and skips.
 
 use crate::support::{HEAD, ball, floor, world};
 use patchlight::transport::{Plan, PlanItem};
 
-const DIRECT: &str = "direct light";
-const CAUSTICS: &str = "caustics";
-const SEEN: &str = "caustics in mirrors and glass";
-const INTERREFLECTION: &str = "interreflection";
+const DIRECT: PlanItem = PlanItem::DirectLight;
+const CAUSTICS: PlanItem = PlanItem::Caustics;
+const SEEN: PlanItem = PlanItem::IndirectlySeenCaustics;
+const INTERREFLECTION: PlanItem = PlanItem::Interreflection;
 
-/// What is rendered of a scene with these objects.
-fn rendered(max_bounces: u32, objects: &[String]) -> Vec<String> {
+/// The components that the plan renders in a scene with these objects.
+fn rendered(max_bounces: u32, objects: &[String]) -> Vec<PlanItem> {
     let text = format!("{HEAD}{}[render]\nmax_bounces = {max_bounces}\n", objects.concat());
     let notes = Plan::new(&world(&text)).notes;
     assert!(notes.iter().all(|note| !note.reason.is_empty()), "every decision has a reason: {notes:?}");
-    notes.into_iter().filter(|note| note.rendered).map(|note| note.item.to_string()).collect()
+    notes.into_iter().filter(|note| note.rendered).map(|note| note.item).collect()
 }
 
 #[test]
 fn only_what_can_contribute_is_rendered() {
     let (white, mirror) = (ball("a", 0.0, 0.5, "white"), ball("b", 1.5, 0.5, "mirror"));
-    let cases: [(u32, &[String], &[&str]); 9] = [
+    let cases: [(u32, &[String], &[PlanItem]); 9] = [
         (16, &[floor("white"), white.clone(), mirror.clone()], &[DIRECT, CAUSTICS, SEEN, INTERREFLECTION]),
         (16, &[floor("white"), white.clone()], &[DIRECT, INTERREFLECTION]),
         (1, &[floor("white"), white.clone(), mirror.clone()], &[DIRECT]),

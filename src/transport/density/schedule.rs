@@ -4,7 +4,7 @@
 const FIRST_SIZE: f64 = 1.0 / SMALLEST as f64;
 /// The number of paths of a full iteration is a multiple of this.
 pub(in crate::transport) const SMALLEST: u64 = 1 << GROWING_ITERATIONS;
-/// Iterations smaller than a full one.
+/// Iterations smaller than a full one: the first one has an eighth of a full one's paths, so a whole picture appears soon.
 const GROWING_ITERATIONS: u32 = 3;
 
 /// How fast radii shrink: `r ~ n^(-(1 - alpha) / 2)`. 2/3 balances bias and variance of a mean over independent
@@ -29,7 +29,8 @@ pub(in crate::transport) fn shrink(i: u64) -> f64 {
     size_before(i.max(1) + 1).powf(-0.5 * (1.0 - ALPHA))
 }
 
-/// The plan is refined after this iteration, a power of two, and after the following powers of two.
+/// The plan is refined after this iteration, a power of two, and after the following powers of two: a variance takes two
+/// measurements, and each later refinement rests on as many new iterations as there were before.
 const FIRST_REFINEMENT: u64 = 4;
 
 /// Whether the plan is refined after iteration `i`.

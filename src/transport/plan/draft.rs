@@ -4,10 +4,12 @@ use super::paths::allocate;
 use super::radii::DRAFT_RADIUS;
 use super::render_plan::{CausticPlan, Plan};
 
-/// Least and most photon paths of a draft for caustics, by pixels 1 to 1, and for interreflection, by pixels 1 to 4.
+/// Least and most photon paths of a draft for caustics, of which there is one per pixel in between: fewer leave too much noise, more take
+/// longer than the frame that a draft may take.
 const CAUSTIC_PATHS: [f64; 2] = [4096.0, 32_768.0];
+/// Least and most photon paths of a draft for interreflection, for the same reasons.
 const GLOBAL_PATHS: [f64; 2] = [1024.0, 8192.0];
-/// Photon paths for interreflection of a draft, for each pixel.
+/// Photon paths of a draft for interreflection, for each pixel: interreflection is smooth, so a draft blurs it instead.
 const GLOBAL_PATHS_PER_PIXEL: f64 = 0.25;
 
 impl Plan {

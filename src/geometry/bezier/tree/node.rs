@@ -80,6 +80,7 @@ impl Node {
     }
 
     /// The distance of a point to each box; infinite for empty slots.
+    #[inline(always)]
     pub(crate) fn distances(&self, point: DVec3) -> [f64; LANES] {
         from_fn(|k| {
             let outside = [0, 1, 2].map(|axis| {

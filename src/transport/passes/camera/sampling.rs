@@ -12,7 +12,8 @@ use crate::world::World;
 use glam::DVec2;
 use std::ops::Range;
 
-/// Samples of a pixel that gather photons where the pixel shows different surfaces.
+/// Samples of a pixel that gather photons where the pixel shows different surfaces: one would leave jagged edges, and density
+/// estimates are most of a pixel's work.
 const SAMPLES_OF_EDGE: usize = 4;
 /// Columns of a tile; it has all rows of the pass.
 const TILE: u32 = 16;

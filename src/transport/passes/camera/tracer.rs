@@ -15,9 +15,10 @@ use crate::world::{Lobe, Surface, SurfacePoint, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3};
 
-/// Interfaces of a path at which both sides are followed; at further interfaces a random side is.
+/// Interfaces of a path at which both sides are followed; at further interfaces a random side is. Two cover the reflection and the view
+/// through a glass object; more would double the work for ever weaker branches.
 const FOLLOWED_SPLITS: u32 = 2;
-/// Throughput below which a branch ends at random.
+/// Throughput below which a branch ends at random: it would cost as much as a bright branch.
 const WEAK_BRANCH: f32 = 0.02;
 /// Most open branches: two at each followed split, with one continuation each.
 const MAX_BRANCHES: usize = 16;
