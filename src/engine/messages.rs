@@ -24,14 +24,14 @@ pub enum Command {
     Resume,
     /// Restarts the present scene.
     Restart,
-    /// Rests once the estimated error (RMSE over the mean) is at most this; `None` renders for ever.
+    /// Rests once the estimated error (RMSE over the mean) is at most this; `None` renders without end.
     Target(Option<f64>),
 }
 
 /// What the engine is doing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Nothing: it was given no scene.
+    /// Waiting for a scene.
     Idle,
     /// Building trees, reading textures, planning.
     Preparing,

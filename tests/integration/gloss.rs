@@ -123,8 +123,8 @@ fn neighbours_share_what_their_lobes_show() {
     assert!(bias.abs() + 5.0 * error < 0.02, "{bias}, standard error {error}");
 }
 
-/// A pixel that shows the glossy floor and what is behind it finds little in the floor's lobe: neighbours get none of that, and
-/// it none of theirs.
+/// A pixel at the floor's edge samples little of the floor's lobe: its neighbours do not reuse that sample, and it does not reuse
+/// theirs.
 #[test]
 fn edges_share_no_lobes() {
     let text = scene(2).replace("fov_y = 20", "fov_y = 60");
@@ -136,7 +136,7 @@ fn edges_share_no_lobes() {
     let met =
         |pixel: usize| seen.visible_points.iter().filter(|p| p.pixel as usize == pixel && p.seen_directly).count();
     let edges: Vec<usize> = (0..lobes.len()).filter(|&k| seen.samples[k].is_heterogeneous).collect();
-    assert!(edges.iter().any(|&k| met(k) == 1), "one of its paths met the floor, the others nothing");
+    assert!(edges.iter().any(|&k| met(k) == 1), "one of its paths met the floor, the other paths left the scene");
     assert!(edges.iter().all(|&k| lobes[k].is_none()), "lobes are shared at edges");
     assert!(lobes.iter().flatten().count() > lobes.len() / 8, "lobes are shared elsewhere");
 }

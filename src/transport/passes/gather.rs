@@ -99,7 +99,7 @@ simd_dispatch! {
     }
 }
 
-/// What density estimates read.
+/// The input of density estimates.
 struct Gatherer<'a> {
     world: &'a World,
     plan: &'a Plan,

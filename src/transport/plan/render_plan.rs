@@ -9,7 +9,7 @@ use crate::transport::points::GlossyMis;
 use crate::world::Camera;
 use std::sync::Arc;
 
-/// What every iteration does for a scene.
+/// The work of every iteration for a scene.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The pinhole and the film's grid, which is coarser for a draft.
