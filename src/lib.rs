@@ -17,7 +17,7 @@
 //!                             (a new generation: a pass       |        ▼
 //!                              in flight gives up)            |   world::prepare(scene, previous) ─► World
 //!                                                             |        ▼
-//!                                                             |   Plan: what is needed, what is skipped, why
+//!                                                             |   Plan: components to render, components to skip, reasons
 //!                                                             |        ▼
 //!                                                             |   a draft, never cancelled, then finer ones, then 1, 2, ...
 //!                                                             |   ┌─ iteration i ───────────────────────────────┐
@@ -72,16 +72,16 @@
 //!
 //! # Modules
 //!
-//! A module uses only what stands before it in this list.
+//! A module uses only modules above it in this list.
 //!
 //! | module | holds | never knows |
 //! |---|---|---|
-//! | [`mod@file`] | writing a file whole or not at all | what it writes |
+//! | [`mod@file`] | writing a file whole or not at all | the content of the file |
 //! | [`math`] | rays, boxes, orthonormal bases, error bounds, sampling warps, index-based random streams | colour, scenes, time |
 //! | [`geometry`] | sphere, quad, plane, [`geometry::bezier`], the tree over primitives | materials, files, threads |
-//! | [`scene`] | what the user describes: plain data; load, save, validate | trees, images, rendering, windows |
-//! | [`world`] | what the renderer reads, prepared from a scene, immutable | passes, windows |
-//! | [`film`] | linear images, tone curves, PNG and EXR, error metrics | who renders |
+//! | [`scene`] | the description by the user: plain data; load, save, validate | trees, images, rendering, windows |
+//! | [`world`] | the data of the renderer, prepared from a scene, immutable | passes, windows |
+//! | [`film`] | linear images, tone curves, PNG and EXR, error metrics | rendering |
 //! | [`transport`] | scattering, the plan, the passes, the photon map, the schedule | channels, clocks, files |
 //! | [`engine`] | the worker, film sums, commands in, frames out, cancel, restart | windows, how surfaces scatter |
 //! | [`cli`], `app` | the two front ends, side by side | each other |
@@ -90,16 +90,17 @@
 //!
 //! - A pass is a function of its arguments. A random number depends on (seed, stream, sequence, index, dimension) alone; the
 //!   index of a pixel's or a light's sequence runs on through all iterations. One thread and many give the same bits.
-//! - An iteration is a pure function of (world, plan, seed, i), so films of consecutive iterations can be merged. A fixed
-//!   schedule sets the size of an iteration, by which its photons count in the mean. Its camera samples count by the number
-//!   that the neighbouring pixels ask for. After iterations 4, 8, 16, ... the plan is refined by what iterations measured:
-//!   radii of density estimates, pixels that gather caustics, and the number of camera samples of each pixel.
+//! - An iteration is a pure function of (world, plan, seed, i), so films of consecutive iterations can be merged. A
+//!   fixed schedule sets the size of an iteration, which weights its photons in the mean. The number of samples that
+//!   the neighbouring pixels need weights its camera samples. After iterations 4, 8, 16, ... the plan is refined by the
+//!   measurements of the iterations: radii of density estimates, pixels that gather caustics, and the number of camera
+//!   samples of each pixel.
 //! - A cancelled pass returns nothing, and the film changes only by whole iterations. Drafts never enter the film.
 //! - Colours are `f32`; positions, directions and distances are `f64`, because the offset that keeps a ray off the surface
 //!   it leaves has to be small against the scene and large against rounding. Photons and visible points are stored in `f32`,
 //!   relative to the middle of the scene.
 //! - Only finite values enter the film; dropped values are counted and shown.
-//! - Every path of light counts once: one technique finds it, or several techniques share it by MIS weights.
+//! - Every path of light counts once: one technique finds it, or MIS weights divide it among several techniques.
 //!
 //! # Glossary
 //!
@@ -120,7 +121,7 @@
 //! | visible point | point of a diffuse or glossy surface that a camera path reaches, and where photons are gathered |
 //! | facet | shading normal and albedo at one camera sample of a pixel on a surface with relief |
 //! | viewing lobe | last Phong lobe through which a camera path sees a point |
-//! | light importance | fraction of a light's photon paths that reach what the camera may see |
+//! | light importance | fraction of a light's photon paths that reach points that the camera may see |
 //!
 //! Photons and density estimates:
 //!
@@ -133,13 +134,13 @@
 //! | density estimate | kernel-weighted sum of the flux of photons in a disc, over the kernel's integral: irradiance or radiance |
 //! | footprint | side of a pixel projected to the distance of a point, scene units |
 //! | clearance | distance from a visible point to the nearest other object, scene units; limits the radius |
-//! | visibility polygon | part of a plane that a point of the plane sees past objects standing on it |
+//! | visibility polygon | region of a plane that is visible from a point of the plane, past objects standing on it |
 //! | cosine correction | factor of a photon's flux: the cosine at the gathering point over the cosine where the photon arrived |
 //! | bandwidth | radii of density estimates over the film, relative to the radii after one full iteration |
 //! | bandwidth difference | change of a density estimate in a disc 1.5 times as wide; tells its bias |
 //! | interleaved sampling | one pixel of each square of 2 x 2 gathers irradiance for its neighbours; the pixel changes with the iteration |
 //! | lobe reuse | each pixel takes the mean over its neighbours' samples of a Phong lobe |
-//! | MIS weight | share of a technique in the light of a path that several techniques can find |
+//! | MIS weight | weight of a technique for a path of light that several techniques can find; the weights add up to 1 |
 //!
 //! Iterations and the film:
 //!
@@ -147,7 +148,7 @@
 //! |---|---|
 //! | iteration, pass | one full round of the algorithm; one stage of a round |
 //! | size of an iteration | its number of photon paths over the number of a full iteration; 1/8, 1/4, 1/2, then 1 |
-//! | plan | what every pass does for a scene: paths, radii, samples; new, draft, refined, or for only one component |
+//! | plan | the settings of every pass for a scene: paths, radii, samples; new, draft, refined, or for only one component |
 //! | draft | quick first picture after an edit, with fewer pixels and photons |
 //! | generation | number of a scene that the engine was sent; grows with each edit |
 //! | band | whole rows of the film that the camera pass and the gather pass render independently |

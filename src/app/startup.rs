@@ -91,7 +91,7 @@ fn open_window(file: SceneFile, render: &str) -> Result<(), AppError> {
 }
 
 /// Runs `run`. The window system's crates panic when a library is missing, so a panic before `shown` is set becomes an
-/// error and prints nothing. A later panic is a bug and unwinds.
+/// error without output. A later panic is a bug and unwinds.
 fn quietly_until(
     shown: &Arc<AtomicBool>,
     run: impl FnOnce() -> Result<(), eframe::Error>,

@@ -20,11 +20,11 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Render an image without a window
+    /// Render a picture without a window
     Render(RenderArguments),
-    /// Measure the error against a reference image over time
+    /// Measure the error against a reference picture over time
     Bench(BenchArguments),
-    /// Validate a scene; print what is rendered, what is skipped, and why
+    /// Validate a scene; print its plan: rendered and skipped components, with reasons
     Check(CheckArguments),
     /// Print the nearest hit of every ray on Bezier patches: `1,t,u,v` or `0,,,`
     Intersect(IntersectArguments),
@@ -35,7 +35,7 @@ pub(super) enum Command {
 /// The settings of rendering.
 #[derive(Debug, Args)]
 pub(super) struct RenderSettings {
-    /// Size of the image in pixels [default: the size in the scene]
+    /// Size of the picture in pixels [default: the size in the scene]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<(u32, u32)>,
     /// Number of rendering threads [default: one per core]
@@ -44,7 +44,7 @@ pub(super) struct RenderSettings {
     /// Seed of the random numbers; another seed gives other noise
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) seed: u64,
-    /// Render only this component of the light; the three components add up to the image
+    /// Render only this component of the light; the three components add up to the picture
     #[arg(long, value_name = "COMPONENT")]
     pub(super) only: Option<ComponentName>,
 }
@@ -75,7 +75,7 @@ impl From<ComponentName> for Component {
 pub(super) struct RenderArguments {
     /// A scene file or the name of a built-in scene
     pub(super) scene: PathBuf,
-    /// The image file: .png with exposure and tone curve, or .exr with linear 32-bit floats
+    /// The picture file: .png with exposure and tone curve, or .exr with linear 32-bit floats
     #[arg(short, long, value_name = "OUT.(png|exr)")]
     pub(super) output: PathBuf,
     #[command(flatten)]
@@ -97,8 +97,8 @@ pub(super) struct Budget {
     /// Render N iterations
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) iterations: Option<u64>,
-    /// Render until the estimated RMSE, relative to the mean radiance, is below E: 0.02 is 2 %. The estimate is rough for small
-    /// images
+    /// Render until the estimated RMSE, relative to the mean radiance, is below E: 0.02 is 2 %. The estimate is rough
+    /// for small pictures
     #[arg(long, value_name = "E", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) error: Option<f64>,
 }
@@ -112,14 +112,14 @@ impl Budget {
 pub(super) struct BenchArguments {
     /// A scene file or the name of a built-in scene
     pub(super) scene: Option<PathBuf>,
-    /// The reference image
+    /// The reference picture
     #[arg(long, value_name = "REF.exr")]
     pub(super) reference: Option<PathBuf>,
-    /// A second reference image with independent noise: errors then exclude the noise of the references. Outside the mask,
-    /// errors are against this reference alone
+    /// A second reference picture with independent noise: errors then exclude the noise of the references. Outside the
+    /// mask, errors are against this reference alone
     #[arg(long, value_name = "REF.exr", requires = "reference")]
     pub(super) second_reference: Option<PathBuf>,
-    /// Measure the bright pixels of this image, and separately the dark ones
+    /// Measure inside the mask, the bright pixels of this file, and separately outside
     #[arg(long, value_name = "MASK.png")]
     pub(super) mask: Option<PathBuf>,
     /// Measure after each of these times, in seconds
@@ -131,7 +131,7 @@ pub(super) struct BenchArguments {
     /// Number of rendering threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
-    /// Measure only this component of the light, which the reference image must show alone
+    /// Measure only this component of the light, which the reference picture must show alone
     #[arg(long, value_name = "COMPONENT")]
     pub(super) only: Option<ComponentName>,
     /// Write the measurements to this CSV file
@@ -141,7 +141,8 @@ pub(super) struct BenchArguments {
     #[arg(long, value_name = "OUT.png")]
     pub(super) plot: Option<PathBuf>,
     /// Measure all runs of this file instead of SCENE: each run has name, scene and seconds; optionally seeds, only, mask,
-    /// others (a relMSE to compare with); and either reference, optionally with second_reference, or reference_seconds
+    /// others (the relMSE of another program); and either reference, optionally with second_reference, or
+    /// reference_seconds
     #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["scene", "reference", "second_reference", "mask", "seconds", "seeds", "only", "csv", "plot"])]
     pub(super) suite: Option<PathBuf>,
     /// The folder for the results of a suite: the table FILE.md, and a table and a plot for each run

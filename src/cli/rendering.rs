@@ -22,8 +22,8 @@ pub(super) fn advance(session: &mut Session) -> f64 {
     session.seconds() - before
 }
 
-/// Renders iterations until the session's rendering time is `seconds`: as long as the next iteration, if it takes as long as
-/// the one before, ends in time. `last` is the time of the last iteration; returns the time of the new last one.
+/// Renders iterations while the next one would end before the session's rendering time is `seconds`, if it takes as
+/// long as the previous one. `last` is the time of the last iteration; returns the time of the new last one.
 pub(super) fn advance_until(session: &mut Session, mut last: f64, seconds: f64) -> f64 {
     while session.seconds() + last <= seconds {
         last = advance(session);

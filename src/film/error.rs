@@ -28,7 +28,7 @@ pub enum ImageError {
         source: io::Error,
     },
     /// The images of a comparison differ in size.
-    #[error("the {what} has {} x {} pixels, the image {} x {}", found.0, found.1, expected.0, expected.1)]
+    #[error("the {what} has {} x {} pixels, the picture {} x {}", found.0, found.1, expected.0, expected.1)]
     Size {
         /// "reference", "second reference" or "mask".
         what: &'static str,

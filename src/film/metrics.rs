@@ -4,9 +4,9 @@ use crate::math::Rgb;
 /// Keeps the relative error of dark pixels finite: the square of a tenth of the radiance of a bright wall.
 const RELATIVE_FLOOR: f64 = 0.01;
 
-/// The fraction of the pixels, those with the smallest errors, over which trimmed errors are means: outliers do not dominate
-/// them.
-const TRIMMED_PART: f64 = 0.999;
+/// The fraction of the pixels over which trimmed errors are means: without the largest errors, outliers do not
+/// dominate.
+const TRIMMED_FRACTION: f64 = 0.999;
 
 /// The errors of an image against its reference, over pixels and channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,9 +37,9 @@ pub fn compare(image: &LinearImage, reference: &LinearImage, mask: Option<&Mask>
     compare_with_both(image, reference, reference, mask)
 }
 
-/// Compares an image with two references with independent noise, which the errors then do not contain: they are means of
-/// the products of the differences from the first and from the second reference, instead of squares. Means and weights are
-/// of the first reference. For tiny errors noise may make the mean of products negative; the RMSE is then 0.
+/// Compares an image with two references of independent noise, which the errors exclude: they are means of the product
+/// of both differences instead of means of squares. Means and weights use the first reference. For tiny errors noise
+/// may make the mean of products negative; the RMSE is then 0.
 ///
 /// # Errors
 ///
@@ -96,7 +96,7 @@ fn root(square: f64) -> f64 {
 
 fn trimmed_mean(values: &mut [f64]) -> f64 {
     values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    mean(&values[..(values.len() as f64 * TRIMMED_PART) as usize])
+    mean(&values[..(values.len() as f64 * TRIMMED_FRACTION) as usize])
 }
 
 #[cfg(test)]
@@ -123,17 +123,17 @@ mod tests {
     #[test]
     fn two_references_cancel_their_noise() {
         let x = image(vec![Rgb::splat(3.0); 4]);
-        // The truth is 1; the second reference has the same noise where the first one is too bright as where it is too dark.
+        // The truth is 1; the noise of the second reference does not depend on the noise of the first.
         let [first, second] = [[1.5, 1.5, 0.5, 0.5], [1.1, 0.9, 1.1, 0.9]].map(|r| image(r.map(Rgb::splat).to_vec()));
         let errors = compare_with_both(&x, &first, &second, None).unwrap();
         assert!((errors.rmse - 2.0).abs() < 1e-6, "{errors:?}");
         assert!(
             (errors.rel_mse - (1.5 / 2.26 + 2.5 / 0.26)).abs() < 1e-6,
-            "the weights are the first one's: {errors:?}"
+            "the weights use the first reference: {errors:?}"
         );
         assert_eq!(errors.reference_mean, 1.0);
         let between = compare_with_both(&image(vec![Rgb::splat(0.7); 4]), &image(vec![Rgb::splat(0.6); 4]), &x, None);
-        assert_eq!(between.unwrap().rmse, 0.0, "no root of what is negative");
+        assert_eq!(between.unwrap().rmse, 0.0, "0 for the root of a negative mean");
     }
 
     #[test]
@@ -150,9 +150,9 @@ mod tests {
     #[test]
     fn sizes_must_agree() {
         let message = compare(&LinearImage::black(3, 2), &LinearImage::black(2, 3), None).unwrap_err().to_string();
-        assert_eq!(message, "the reference has 2 x 3 pixels, the image 3 x 2");
+        assert_eq!(message, "the reference has 2 x 3 pixels, the picture 3 x 2");
         let [wide, high] = [LinearImage::black(3, 2), LinearImage::black(2, 3)];
         let message = compare_with_both(&wide, &wide, &high, None).unwrap_err().to_string();
-        assert_eq!(message, "the second reference has 2 x 3 pixels, the image 3 x 2");
+        assert_eq!(message, "the second reference has 2 x 3 pixels, the picture 3 x 2");
     }
 }

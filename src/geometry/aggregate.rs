@@ -60,8 +60,8 @@ impl Aggregate {
         closest_hit(self, ray)
     }
 
-    /// The nearest hits of a packet of eight rays. They are those of [`Aggregate::closest_hit`] up to rounding; for coherent
-    /// rays this is faster.
+    /// The nearest hit of each ray of a packet; `None` for a miss. The hits equal the results of
+    /// [`Aggregate::closest_hit`] up to rounding; for coherent rays this is faster.
     #[inline]
     pub fn closest_hits(&self, rays: &[Ray; LANES]) -> [Option<Hit>; LANES] {
         closest_hits(self, rays)
@@ -115,7 +115,8 @@ fn blocks(primitives: &[Primitive]) -> PrimitiveBlocks {
     if uses_blocks(primitives) { PrimitiveBlocks::new((0..).zip(primitives)) } else { PrimitiveBlocks::default() }
 }
 
-/// For each primitive its box in the BVH of the blocks, and its box in the other BVH; empty where it is not in that one.
+/// For each primitive, its box in the BVH of the blocks and its box in the BVH of the primitives outside of blocks;
+/// empty in a BVH that does not hold the primitive.
 fn boxes(primitives: &[Primitive]) -> (Vec<Aabb>, Vec<Aabb>) {
     let uses_blocks = uses_blocks(primitives);
     let boxed = |primitive: &Primitive, wanted: bool| if wanted { primitive.bounds() } else { Aabb::EMPTY };

@@ -9,8 +9,13 @@
 //! | `bvh` | [`Bvh`]: a bounding volume hierarchy over boxes |
 //! | `aggregate` | [`Aggregate`]: all primitives of a scene |
 //!
-//! \[DHK08\], \[KayKajiya86\]: see [`bezier`]. \[Wald07\] I. Wald, On Fast Construction of SAH-based Bounding Volume
-//! Hierarchies, IEEE Symposium on Interactive Ray Tracing 2007. \[Ize13\] T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
+//! # References
+//!
+//! \[DHK08\] and \[KayKajiya86\] are in the list of [`bezier`].
+//!
+//! - \[Ize13\] T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
+//! - \[Wald07\] I. Wald, On Fast Construction of SAH-based Bounding Volume Hierarchies, IEEE Symposium on Interactive Ray
+//!   Tracing 2007.
 
 mod aggregate;
 pub mod bezier;

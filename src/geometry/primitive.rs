@@ -17,7 +17,7 @@ pub enum Primitive {
     Patch(Arc<Patch>),
 }
 
-/// Where a ray hits a primitive.
+/// The hit of a ray on a primitive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// The ray parameter, in units of the ray's direction.
@@ -72,7 +72,7 @@ impl Primitive {
         matches!(self, Self::Quad(_) | Self::Sphere(_))
     }
 
-    /// The nearest hit as (t, u, v).
+    /// The nearest hit as (t, u, v); `None` for a miss.
     #[inline(always)]
     pub(super) fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         match self {

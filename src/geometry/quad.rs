@@ -1,8 +1,8 @@
 use crate::math::{Aabb, Ray};
 use glam::{DVec2, DVec3};
 
-/// How far outside of its edges a quad still is hit, in units of (u, v): above the rounding of a hit, so that no ray slips
-/// between two quads that share an edge.
+/// The distance outside of its edges up to which a quad is hit, in units of (u, v): above the rounding of a hit, so
+/// that no ray slips between two quads that share an edge.
 pub(super) const EDGE_TOLERANCE: f64 = 1e-12;
 
 /// A parallelogram, prepared for intersection.

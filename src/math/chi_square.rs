@@ -15,21 +15,22 @@ const DRAWS: u64 = 100_000;
 /// Bins with a smaller expected count are pooled, because their counts are far from normal.
 const LEAST_EXPECTED: f64 = 5.0;
 
-/// Asserts that the draws of a sampler have this density (per area) over the unit square. `None` counts as a draw outside the square,
-/// which must be as frequent as the density leaves room for. Every draw gets an independent random sequence.
+/// Asserts that the draws of a sampler have this density (per area) over the unit square. `None` counts as a draw
+/// outside the square; its expected frequency is 1 minus the integral of the density. Every draw gets an independent
+/// random sequence.
 pub(crate) fn assert_has_density(
-    what: &str,
+    name: &str,
     sample: impl FnMut(&mut Sampler) -> Option<DVec2>,
     density: impl Fn(DVec2) -> f64,
 ) {
     let p_value = p_value_of_sampler(sample, density);
-    assert!(p_value >= SIGNIFICANCE, "{what}: the samples do not have the density, p = {p_value:e}");
+    assert!(p_value >= SIGNIFICANCE, "{name}: the samples do not have the density, p = {p_value:e}");
 }
 
 /// Asserts that counts of independent draws agree with the expected counts.
-pub(crate) fn assert_has_frequencies(what: &str, counts: &[u64], expected: &[f64]) {
+pub(crate) fn assert_has_frequencies(name: &str, counts: &[u64], expected: &[f64]) {
     let p_value = p_value(counts, expected);
-    assert!(p_value >= SIGNIFICANCE, "{what}: {counts:?} instead of {expected:?}, p = {p_value:e}");
+    assert!(p_value >= SIGNIFICANCE, "{name}: {counts:?} instead of {expected:?}, p = {p_value:e}");
 }
 
 fn p_value_of_sampler(mut sample: impl FnMut(&mut Sampler) -> Option<DVec2>, density: impl Fn(DVec2) -> f64) -> f64 {
@@ -56,7 +57,8 @@ fn p_value_of_sampler(mut sample: impl FnMut(&mut Sampler) -> Option<DVec2>, den
     p_value(&counts, &expected)
 }
 
-/// The probability that counts are at least as far from the expected counts as these, for a correct sampler.
+/// The p-value: the probability that the counts of a correct sampler differ from the expected counts by at least as
+/// much.
 fn p_value(counts: &[u64], expected: &[f64]) -> f64 {
     let term = |count: u64, expected: f64| (count as f64 - expected).powi(2) / expected;
     let (mut statistic, mut bins) = (0.0, 0);
@@ -69,7 +71,7 @@ fn p_value(counts: &[u64], expected: &[f64]) -> f64 {
             pool = (pool.0 + count, pool.1 + expected);
         }
     }
-    // The midpoint rule puts about 1e-5 of the draws into bins that none can reach.
+    // The midpoint rule puts about 1e-5 of the draws into bins that no draw can reach.
     if pool.0 > 0 || pool.1 > 1.0 {
         statistic += term(pool.0, pool.1.max(1.0));
         bins += 1;
@@ -77,8 +79,9 @@ fn p_value(counts: &[u64], expected: &[f64]) -> f64 {
     upper_tail(statistic, bins - 1)
 }
 
-/// The probability that a chi-square variable with so many degrees of freedom exceeds `x`. Odd numbers are rounded up: for even ones
-/// the tail is the finite sum `exp(-x/2) sum of (x/2)^k / k!` over k below half of the degrees, and it is never smaller.
+/// The probability that a chi-square variable with this number of degrees of freedom exceeds `x`: for an even number
+/// the sum `exp(-x/2) sum of (x/2)^k / k!` over k below half of the degrees. An odd number is rounded up, which never
+/// makes the probability smaller.
 fn upper_tail(x: f64, degrees: usize) -> f64 {
     let half = 0.5 * x;
     let next = |term: &mut f64, k: usize| {
@@ -108,7 +111,7 @@ pub(crate) fn cap_solid_angle(least_z: f64) -> f64 {
 }
 
 #[test]
-fn tails_are_those_of_tables() {
+fn tails_match_published_tables() {
     for (degrees, x, p) in [(2, 5.991, 0.05), (10, 18.307, 0.05), (20, 45.315, 0.001), (100, 149.449, 0.001)] {
         assert!((upper_tail(x, degrees) / p - 1.0).abs() < 1e-3, "{degrees} degrees of freedom");
     }
@@ -119,9 +122,9 @@ fn tails_are_those_of_tables() {
 fn a_wrong_density_is_rejected() {
     let uniform = |sampler: &mut Sampler| Some(sampler.next_2d());
     assert!(p_value_of_sampler(uniform, |_| 1.0) > SIGNIFICANCE);
-    // A tenth more on one side than on the other.
+    // The density rises by a tenth from left to right.
     assert!(p_value_of_sampler(uniform, |p| 0.95 + 0.1 * p.x) < SIGNIFICANCE);
     let halved = |sampler: &mut Sampler| Some(sampler.next_2d()).filter(|p| p.x < 0.52);
     let left = |p: DVec2| if p.x < 0.5 { 1.0 } else { 0.0 };
-    assert!(p_value_of_sampler(halved, left) < SIGNIFICANCE, "2 % land where none should");
+    assert!(p_value_of_sampler(halved, left) < SIGNIFICANCE, "2 % land outside the support");
 }

@@ -1,5 +1,5 @@
-//! SIMD vectors of eight `f32`. Functions are compiled for AVX2 and for what the target always has; the processor decides at
-//! run time. (The crate `wide` decides at compile time, and so for vectors of four.)
+//! SIMD vectors of eight `f32`. Functions are compiled for AVX2 and for the baseline instructions of the target; the
+//! processor decides at run time. (The crate `wide` decides at compile time, for vectors of four.)
 
 use wide::{f32x8, u32x8};
 

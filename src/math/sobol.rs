@@ -1,7 +1,8 @@
 //! Owen-scrambled Sobol points as pure functions of (seed, stream, index, dimension) \[Burley20\].
 //!
 //! Dimensions come in sets of four (padding). Within a set, every aligned power-of-two block of indices is a digital net; sets
-//! are combined at random, by shuffled indices. A path should therefore use its first four numbers for what matters most.
+//! are combined at random, by shuffled indices. A path should therefore use its first four numbers for its most
+//! important choices.
 
 use glam::DVec2;
 
@@ -14,9 +15,9 @@ pub enum Stream {
     CausticPhoton,
     /// Photons of interreflection.
     GlobalPhoton,
-    /// Rays that find out what a light reaches.
+    /// Paths that probe which surfaces a light reaches.
     Probe,
-    /// Which sample of a pixel gathers photons, one sequence per pixel, one index per iteration.
+    /// The choice of the sample that gathers photons, one sequence per pixel, one index per iteration.
     GatheringSample,
     /// Direction of a visibility polygon's first corner, one sequence per pixel, one index per iteration.
     VisibilityPolygon,
@@ -42,7 +43,7 @@ impl Stream {
     }
 }
 
-/// One point of a sequence, whose coordinates it returns one after another.
+/// A point of a sequence; returns its coordinates one after another.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     index: u32,
@@ -74,7 +75,7 @@ impl Sampler {
         unit_from_bits(x.reverse_bits())
     }
 
-    /// The next two coordinates, both of the same set, so that they are stratified together.
+    /// The next two coordinates, both from one set of four, so that they are stratified together.
     pub fn next_2d(&mut self) -> DVec2 {
         if self.used > 2 {
             self.next_set();

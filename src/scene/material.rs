@@ -61,7 +61,7 @@ pub enum Color {
     Texture(TextureUse),
 }
 
-/// A map that tilts the shading normal and displaces nothing.
+/// A map that tilts the shading normal without displacing the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Relief {
     /// A tangent-space normal map.

@@ -1,4 +1,5 @@
-//! The scene as the user describes it: plain data that can be cloned, compared, loaded and saved. Knows nothing of rendering.
+//! The scene as the user describes it: plain data that can be cloned, compared, loaded and saved. Independent of
+//! rendering.
 //!
 //! A scene file is one TOML file; each type mirrors a table of it.
 //!

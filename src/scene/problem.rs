@@ -5,7 +5,7 @@ use std::fmt;
 pub struct Problem {
     /// The path of the value in the file format, like `object[2].radius`; empty for the scene as a whole.
     pub path: String,
-    /// What was found and what is expected, with a suggestion if there is one.
+    /// The value found and the value expected, with a suggestion if there is one.
     pub message: String,
 }
 

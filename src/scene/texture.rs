@@ -17,7 +17,7 @@ pub enum Encoding {
     /// The sRGB transfer function.
     #[default]
     Srgb,
-    /// Linear: values proportional to light, or no colours.
+    /// Linear: values proportional to light, or data such as heights.
     Linear,
 }
 

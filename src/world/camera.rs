@@ -112,7 +112,7 @@ mod tests {
             let ray = camera.ray(DVec2::new(x, y));
             let seen = camera.project(ray.at(7.0)).expect("in front of the camera");
             assert_eq!(seen.pixel, y as u32 * 300 + x as u32);
-            assert!(camera.may_see(ray.at(7.0), 0.0), "what projects may be seen");
+            assert!(camera.may_see(ray.at(7.0), 0.0), "a point on the film may be seen");
         }
         assert!(camera.project(camera.ray(DVec2::new(300.1, 50.0)).at(1.0)).is_none(), "right of the film");
         assert!(camera.project(camera.ray(DVec2::new(150.0, 50.0)).at(-1.0)).is_none(), "behind");

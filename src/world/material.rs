@@ -43,14 +43,14 @@ pub struct Material {
 pub struct Scattering {
     /// The albedo of the diffuse (Lambertian) lobe.
     pub albedo: Rgb,
-    /// The other lobe.
+    /// The Phong, mirror or glass lobe, if any.
     pub lobe: Lobe,
 }
 
 /// A lobe besides diffuse reflection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lobe {
-    /// No other lobe.
+    /// Diffuse reflection alone.
     None,
     /// A Phong lobe around the mirror direction.
     Phong {
@@ -201,7 +201,7 @@ impl Material {
     }
 }
 
-/// The albedo, reduced where diffuse lobe and other lobe together would reflect more than all light: validation checks
+/// The diffuse albedo, reduced where both lobes together would reflect more light than arrives: validation checks
 /// constants, but not texels.
 fn within_energy(albedo: Rgb, lobe: Lobe) -> Rgb {
     match lobe {

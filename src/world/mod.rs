@@ -7,7 +7,7 @@
 //! | `texture` | [`Image`]: decoded textures |
 //! | `material` | [`Material`] with its textures; [`Scattering`] at a point |
 //! | `shared_edges` | [`SharedEdges`] between the patches of an object |
-//! | `surface` | [`Surface`], what a primitive belongs to; [`SurfacePoint`], a hit as light transport reads it |
+//! | `surface` | [`Surface`], the object or light of a primitive; [`SurfacePoint`], a hit as light transport reads it |
 //! | `prepared` | [`World`] |
 //! | `error` | [`PrepareError`] |
 //! | `prepare` | [`prepare()`]: from a scene to a world, reusing a previous world |

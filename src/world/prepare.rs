@@ -10,9 +10,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Prepares the world of a scene; paths in the scene are relative to `location`. The world shares with `previous` what has
-/// not changed: a moved control point rebuilds the tree of its patch and refits the BVH; a new material or light rebuilds
-/// neither; an image is decoded once.
+/// Prepares the world of a scene; paths in the scene are relative to `location`. The world shares unchanged parts with
+/// `previous`: a moved control point rebuilds the tree of its patch and refits the BVH; a new material or light
+/// rebuilds neither; an image is decoded once.
 ///
 /// # Errors
 ///
@@ -97,7 +97,7 @@ fn simple_primitive(shape: &Shape) -> Primitive {
         Shape::Quad { corner, edge_u, edge_v } => Primitive::Quad(Quad::new(corner, edge_u, edge_v)),
         Shape::Sphere { center, radius } => Primitive::Sphere(Sphere { center, radius }),
         Shape::Plane { point, normal, u_axis } => Primitive::Plane(Plane::new(point, normal, u_axis)),
-        // Never asked for; no ray hits an empty quad.
+        // Patches have a description of their own; no ray hits an empty quad.
         Shape::Bezier(_) => Primitive::Quad(Quad::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO)),
     }
 }

@@ -10,7 +10,7 @@ pub struct SharedEdges {
     pub v: [bool; 2],
 }
 
-/// For each patch of an object, the edges that another one of the patches has too, in either direction.
+/// For each patch of an object, the edges that it shares with another patch, in either direction.
 pub(super) fn shared_edges(nets: &[ControlNet]) -> Vec<SharedEdges> {
     let edges = |net: &ControlNet| {
         let p = &net.points;

@@ -7,7 +7,7 @@ use glam::DVec3;
 pub enum Surface {
     /// An object of the scene.
     Object {
-        /// Index of the object in the scene; all patches of a Bezier object have the same.
+        /// Index of the object in the scene; patches of a Bezier object share its index.
         object: u32,
         /// Index of the material in the scene.
         material: u32,

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `view` | zoom and pan: the map between film pixels and screen points |
 //! | `projection` | the pinhole camera: the map between world space and film pixels |
-//! | `drag` | where a dragged handle goes |
+//! | `drag` | the position of a dragged handle |
 //! | `picking` | the nearest object under a film point |
 //! | `stage` | the handles on the screen, and which handles a click or drag affects |
 //! | `overlay` | painting of control nets, handles and drag axes |

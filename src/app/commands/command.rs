@@ -40,7 +40,7 @@ pub(crate) enum AppCommand {
     Theme(ThemePreference),
 }
 
-/// What follows after leaving the present scene.
+/// The step that follows after the present scene is left.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Next {
     /// Open a new scene.

@@ -78,7 +78,7 @@ impl Edit {
         })
     }
 
-    /// Changes the scene. An index beyond the end of its list changes nothing.
+    /// Changes the scene. An index beyond the end of its list has no effect.
     pub(crate) fn apply(self, scene: &mut Scene) {
         match self {
             Self::Name(name) => scene.name = name,

@@ -27,7 +27,7 @@ impl Editor {
     pub(crate) fn ui(&mut self, ui: &mut Ui) {
         let mut commands = Vec::new();
         if self.dialog.is_some() {
-            // Under a dialog nothing reacts and no tooltip opens. The dialog dims the window itself.
+            // Under a dialog no widget reacts and no tooltip opens. The dialog dims the window itself.
             ui.disable();
             ui.set_opacity(1.0);
         } else {

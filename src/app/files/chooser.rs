@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A dialog that ends within this time was never shown, because no user is that fast. Without a desktop portal and
-/// without `zenity`, rfd returns at once, with the same value as for "Cancel".
+/// without `zenity`, rfd returns at once, with the value of "Cancel".
 const NEVER_SHOWN: Duration = Duration::from_millis(350);
 /// After this time the window offers a path field, because the dialog may hang or be hidden.
 const SLOW: Duration = Duration::from_millis(1500);

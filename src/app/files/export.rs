@@ -46,7 +46,7 @@ impl Export {
         self.waiting = None;
     }
 
-    /// Writes the surface to `path`, in the format of the path's extension; writes nothing for an unknown extension.
+    /// Writes the surface to `path`, in the format of the path's extension; writes no file for an unknown extension.
     pub(crate) fn write_surface(&self, ctx: &Context, surface: SurfaceExport, path: PathBuf) {
         let Some(format) = SurfaceFormat::of(&path) else { return };
         let steps = self.steps;

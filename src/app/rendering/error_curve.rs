@@ -1,6 +1,6 @@
 //! The error estimate over time.
 
-/// Measurements kept at most. Beyond them, every second one is dropped.
+/// Measurements kept at most. Beyond them, every second measurement is dropped.
 const CAPACITY: usize = 512;
 
 /// The error estimates of one generation over its rendering time.

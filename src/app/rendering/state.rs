@@ -6,7 +6,7 @@ use crate::engine::{Command, Frame, Status};
 use crate::scene::{Problem, SceneFile};
 use std::sync::Arc;
 
-/// The relative error at which rendering stops by default: no eye sees a smaller one, so an unattended window stops
+/// The relative error at which rendering stops by default: a smaller error is invisible, so an unattended window stops
 /// computing there.
 const DEFAULT_TARGET: f64 = 0.001;
 

@@ -100,7 +100,7 @@ fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         ("Click, Shift+click", "selects a control point, adds it to the selection"),
         ("Click in the picture", "selects the nearest object"),
         ("Wheel", "zooms about the pointer"),
-        ("Drag the picture", "pans; any other mouse button pans over handles too"),
+        ("Drag the picture", "pans; the middle and right mouse buttons pan over handles too"),
         ("Drag a number", "changes the number, slowly with Shift; a click starts typing"),
     ];
     ui.heading("Keys and mouse");

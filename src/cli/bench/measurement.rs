@@ -19,7 +19,7 @@ pub(super) struct Measurement {
 
 impl Measurement {
     /// The RMSE that was estimated without the reference, over the measured RMSE. `None` without an estimate, or if the RMSE is 0:
-    /// with two references it is 0 if they differ more from each other than the image from them.
+    /// with two references it is 0 if the references differ more from each other than the image from them.
     pub(super) fn estimate_over_error(&self) -> Option<f64> {
         let estimate = self.stats.error_estimate.filter(|_| self.errors.rmse > 0.0);
         estimate.map(|estimate| estimate * self.errors.reference_mean / self.errors.rmse)

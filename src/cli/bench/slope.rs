@@ -1,6 +1,6 @@
 use super::median::{Median, Pair};
 
-/// Slopes use the marks from the last one divided by this on: early errors fall at another rate.
+/// Slopes use the marks from the last mark divided by this factor on: early errors fall at another rate.
 const OCTAVES: f64 = 4.0;
 
 /// The powers of time by which the errors fall in the last two octaves of time. `None` without two different times, or if an

@@ -5,9 +5,9 @@ use crate::scene::Film;
 pub(super) struct Truth {
     reference: LinearImage,
     /// A second reference, with which errors inside the mask exclude the noise of the references. Outside the mask, where the
-    /// first reference is not trusted, errors are against this one alone.
+    /// first reference is not trusted, errors are against the second reference alone.
     second: Option<LinearImage>,
-    /// The mask, and the mask of the other pixels.
+    /// The mask and its complement.
     masks: Option<(Mask, Mask)>,
 }
 
@@ -21,8 +21,8 @@ impl Truth {
     ) -> Result<Self, ImageError> {
         compare_with_both(&reference, &reference, second.as_ref().unwrap_or(&reference), mask.as_ref())?;
         let masks = mask.map(|mask| {
-            let others = mask.inverted();
-            (mask, others)
+            let complement = mask.inverted();
+            (mask, complement)
         });
         Ok(Self { reference, second, masks })
     }
@@ -43,7 +43,7 @@ impl Truth {
         let errors = |mask| compare_with_both(image, &self.reference, second, mask);
         match &self.masks {
             None => Ok((errors(None)?, None)),
-            Some((mask, others)) => Ok((errors(Some(mask))?, Some(compare(image, second, Some(others))?))),
+            Some((mask, complement)) => Ok((errors(Some(mask))?, Some(compare(image, second, Some(complement))?))),
         }
     }
 
@@ -53,7 +53,7 @@ impl Truth {
         use crate::film::{ToneMap, flip, mean_inside};
         let differences = flip(image, &self.reference, &ToneMap::new(film.exposure, film.tone_curve));
         let inside = mean_inside(&differences, self.masks.as_ref().map(|(mask, _)| mask));
-        (Some(inside), self.masks.as_ref().map(|(_, others)| mean_inside(&differences, Some(others))))
+        (Some(inside), self.masks.as_ref().map(|(_, complement)| mean_inside(&differences, Some(complement))))
     }
 
     /// `None`, without the feature `flip`.

@@ -12,8 +12,8 @@ fn bent_net(offset: DVec3) -> ControlNet {
     ControlNet { points: std::array::from_fn(|i| std::array::from_fn(|j| point(i, j))) }
 }
 
-/// The distance to a primitive, or to the nearest of many points on it. No point of the surface is farther than 0.02 from
-/// one of them.
+/// The distance to a primitive, or to the nearest of many points on it. Each point of the surface has one of these
+/// points within 0.02.
 fn by_sampling(primitive: &Primitive, from: DVec3) -> f64 {
     let grid = (0..=100).flat_map(|i| (0..=100).map(move |j| (f64::from(i) / 100.0, f64::from(j) / 100.0)));
     let nearest = |at: &dyn Fn(f64, f64) -> DVec3| {
@@ -67,7 +67,7 @@ fn the_nearest_of_few_and_of_many_is_found() {
         let aggregate = scattered(count);
         let mut hits = 0;
         for k in 0..2000 {
-            // From among them, so that some rays begin in spheres.
+            // Origins among the primitives, so that some rays begin in spheres.
             let mut ray = Ray::new(6.0 * unit(k), 6.0 * unit(10_000 + k) - 3.0);
             ray.t_min = if k % 5 == 0 { 0.2 } else { 0.0 };
             ray.t_max = if k % 7 == 0 { 1.5 } else { f64::INFINITY };
@@ -94,7 +94,7 @@ fn a_packet_finds_the_hits_of_its_rays() {
     let aggregate = scattered(40);
     let (mut hits, mut hits_on_patches) = (0, 0);
     for k in 0..2000 {
-        // From side by side to every which way.
+        // From nearly parallel rays to rays in unrelated directions.
         let spread = [0.003, 0.1, 2.0][k as usize % 3];
         let from = 14.0 * unit(k) - 4.0;
         let rays: [Ray; LANES] = std::array::from_fn(|lane| {

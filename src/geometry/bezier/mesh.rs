@@ -139,7 +139,7 @@ mod tests {
                 let mut p = [0.0; 3];
                 p[axis] = side;
                 p[(axis + 1) % 3] = 2.0 / 3.0 * i as f64 - 1.0;
-                // The other way round on the other side, so that all normals point outward.
+                // Opposite faces have opposite orientations, so that all normals point outward.
                 p[(axis + 2) % 3] = side * (2.0 / 3.0 * j as f64 - 1.0);
                 DVec3::from_array(p)
             };

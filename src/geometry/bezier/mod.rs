@@ -18,14 +18,14 @@
 //! 1. [`Patch::intersect`] maps the ray into the patch's unit space.
 //! 2. The patch is cut into nearly flat subpatches under a BVH, whose boxes hold their control points: \[MCFS00\],
 //!    \[GeimerAbert05\]; eight children per node side by side in SIMD lanes: \[DHK08\].
-//! 3. In a leaf, the ray is intersected with paraboloids that approximate eight subpatches, with bounds of the error. The
-//!    bounds tell how many roots there may be, and where. (Ours.)
+//! 3. In a leaf, the ray is intersected with paraboloids that approximate eight subpatches, with bounds of the error.
+//!    The bounds limit the number of roots and their positions. (Ours.)
 //! 4. Newton's method finds a root \[Kajiya82\], \[BarthStuerzlinger93\] and a bound of the Jacobian proves it the only one
 //!    \[Toth85\].
 //! 5. Where neither decides, the subpatch is halved in ray-aligned coordinates \[NSK90\], rotated to its longer side
 //!    \[EHS05\], until Newton's method does.
 //!
-//! A packet of eight rays goes the same way with a ray in each lane \[WSBW01\].
+//! A packet of eight rays traverses the tree with a ray in each lane \[WSBW01\].
 //!
 //! # References
 //!

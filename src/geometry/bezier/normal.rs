@@ -62,12 +62,13 @@ mod tests {
 
     #[test]
     fn where_a_derivative_vanishes_along_a_middle_line_the_normal_is_the_limit() {
-        // x = (2 u - 1)^3, y = v, z = 3/2 v^2: dS/du vanishes where u is a half. The other way round it is the line v = 1/2.
+        // x = (2 u - 1)^3, y = v, z = 3/2 v^2: dS/du vanishes where u is a half. With u and v exchanged it is the line
+        // v = 1/2.
         let (cube, square) = ([-1.0, 1.0, -1.0, 1.0], [0.0, 0.0, 0.5, 1.5]);
         let net = ControlNet { points: from_fn(|i| from_fn(|j| DVec3::new(cube[i], j as f64 / 3.0, square[j]))) };
         for v in [0.0, 0.25, 0.5, 0.75, 1.0] {
             let limit = DVec3::new(0.0, -3.0 * v, 1.0).normalize();
-            // A neighbour a thousandth of the way off has the same normal here.
+            // A neighbour at a distance of a thousandth has an equal normal here.
             assert!(unit_normal(&net, 0.5, v).distance(limit) < 1e-9, "at {v}: {}", unit_normal(&net, 0.5, v));
             assert!(unit_normal(&net.transposed(), v, 0.5).distance(-limit) < 1e-9);
         }

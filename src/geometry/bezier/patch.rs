@@ -7,8 +7,8 @@ use crate::math::{Aabb, Ray};
 use glam::DVec3;
 use std::sync::OnceLock;
 
-/// A bicubic Bezier patch for ray intersection. The first ray that comes near prepares it (cuts it and builds its tree), so
-/// that a patch that no ray reaches costs nothing.
+/// A bicubic Bezier patch for ray intersection. The first ray that comes near prepares it (cuts it and builds its
+/// tree), so a patch that no ray reaches takes no time.
 ///
 /// ```
 /// use glam::DVec3;
@@ -39,14 +39,14 @@ pub struct Patch {
     prepared: OnceLock<PreparedPatch>,
 }
 
-/// Where a ray hits a patch.
+/// The hit of a ray on a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchHit {
     /// The ray parameter of the hit, in units of the ray's direction.
     pub t: f64,
-    /// From 0 to 1.
+    /// The parameter u of the hit, from 0 to 1.
     pub u: f64,
-    /// From 0 to 1.
+    /// The parameter v of the hit, from 0 to 1.
     pub v: f64,
 }
 
@@ -99,8 +99,8 @@ impl Patch {
         Some(nearest_hit(self.prepared(), ray)?.into())
     }
 
-    /// The nearest hits of a packet's rays whose bits are set in `active`. The hits are those of [`Patch::intersect`] up to
-    /// rounding; for coherent rays this is faster.
+    /// The nearest hit of each ray of a packet; `None` for a miss, and for a ray whose bit in `active` is not set. The
+    /// hits equal the results of [`Patch::intersect`] up to rounding; for coherent rays this is faster.
     pub fn intersect_packet(&self, rays: &[Ray; LANES], active: u32) -> [Option<PatchHit>; LANES] {
         let mut unit_rays = [UnitRay::MISS; LANES];
         for k in set_bits(active) {
@@ -218,13 +218,13 @@ mod tests {
 
     #[test]
     fn normals_have_their_limits_where_the_cross_product_vanishes() {
-        // A cone: all normals along the ruling v are the same, up to the tip at u = 0.
+        // A cone: all normals along the ruling v are equal, up to the tip at u = 0.
         let cone = Patch::new(net(|u, v| DVec3::new(u * v, u * (1.0 - v), u * (1.0 + v * (1.0 - v)))));
         for v in [0.0, 0.3, 1.0] {
             // Computed in the limit from derivatives that are exact to 1e-15.
             assert!(cone.normal(0.0, v).distance(cone.normal(0.5, v)) < 1e-9, "at v = {v}");
         }
-        // Twice the same row: S(u, v) = (3 u^2 - 2 u^3, v, 0).
+        // Two equal rows: S(u, v) = (3 u^2 - 2 u^3, v, 0).
         let flat = Patch::new(net(|u, v| DVec3::new((3.0 * u - 1.0).clamp(0.0, 1.0), v, 0.0)));
         assert!(flat.normal(0.0, 0.5).distance(DVec3::Z) < 1e-9);
     }

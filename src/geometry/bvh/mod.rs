@@ -1,5 +1,5 @@
-//! A bounding volume hierarchy with eight children per node \[DHK08\], built by the surface area heuristic \[Wald07\], over
-//! anything that has a box.
+//! A bounding volume hierarchy with eight children per node \[DHK08\], built by the surface area heuristic \[Wald07\],
+//! over items with boxes.
 //!
 //! | file | holds |
 //! |---|---|

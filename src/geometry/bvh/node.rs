@@ -1,3 +1,6 @@
+//! A node of the tree: the boxes of eight children, and the intersection of rays with them by the slab test \[KayKajiya86\],
+//! robust against rounding: \[Ize13\] T. Ize, Robust BVH Ray Traversal, JCGT 2(2), 2013.
+
 use crate::math::lanes::LANES;
 use crate::math::{Aabb, Ray};
 use glam::DVec3;

@@ -1,3 +1,6 @@
+//! Dividing items into groups by the surface area heuristic in bins: \[Wald07\] I. Wald, On Fast Construction of SAH-based
+//! Bounding Volume Hierarchies, IEEE Symposium on Interactive Ray Tracing 2007.
+
 use super::node::WIDTH;
 use crate::math::Aabb;
 
@@ -27,7 +30,7 @@ pub(super) fn partition<'a>(boxes: &[Aabb], items: &'a mut [u32], by_area: bool)
     groups
 }
 
-/// Reorders the items into two groups by the binned surface area heuristic and returns the start of the second group. Splits
+/// Reorders the items into two groups by the binned surface area heuristic \[Wald07\] and returns the start of the second group. Splits
 /// in halves where all centers coincide.
 fn split_by_area(boxes: &[Aabb], items: &mut [u32]) -> usize {
     let center = |i: u32| boxes[i as usize].center();

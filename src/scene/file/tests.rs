@@ -16,7 +16,7 @@ fn an_unknown_example_suggests_one() {
     assert!(message.ends_with("did you mean \"teapot\"?"), "{message}");
 }
 
-/// All built-in scenes saved to a folder of their own open again as the same, and read the same bytes.
+/// Every built-in scene saved to a new folder opens again equal, and its files have equal bytes.
 #[test]
 fn built_in_scenes_take_their_files_along() {
     let dir = tempfile::tempdir().unwrap();

@@ -51,7 +51,7 @@ fn syntax_problem(text: &str, error: &toml::de::Error) -> LocatedProblem {
     LocatedProblem::at(text, span.start, Problem { path: String::new(), message })
 }
 
-/// Adds the problems of [`validate()`], except those that follow from a value that could not be read.
+/// Adds the problems of [`validate()`], except problems that follow from an unreadable value.
 fn add_invalid(scene: &Scene, notes: &mut Notes) {
     if ["texture", "material", "light", "object"].iter().any(|list| notes.has_problem_at(list)) {
         return;

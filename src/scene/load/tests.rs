@@ -61,7 +61,7 @@ material = "galss"
     assert_eq!(found, expected);
 }
 
-/// Every kind of mistake, each in a scene of its own, and what the message must say.
+/// Every kind of mistake in a scene of its own, with the expected message.
 #[test]
 fn mistakes_are_named() {
     let cases = [
@@ -132,7 +132,7 @@ fn one_mistake_is_one_problem() {
     let text = "[[material]]\nname = \"m\"\ntype = \"paint\"\n[[object]]\nname = \"s\"\ntype = \"sphere\"\n\
                 center = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n";
     assert_eq!(problems(text).len(), 1);
-    // A list that cannot be read hides what refers to it.
+    // An unreadable list hides wrong references to it.
     let text = "[material]\nname = \"m\"\ntype = \"mirror\"\nreflectance = [1, 1, 1]\n[[object]]\nname = \"s\"\n\
                 type = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n";
     assert_eq!(problems(text).len(), 1);

@@ -1,4 +1,4 @@
-//! From a scene to the text of a scene file, laid out for people to edit.
+//! From a scene to the text of a scene file, laid out for editing by hand.
 //!
 //! | file | holds |
 //! |---|---|
@@ -10,7 +10,7 @@ use super::data::VERSION;
 use super::{Bezier, Emitter, Light, Material, MaterialModel, Object, Relief, Scene, Shape, Texture, Transform};
 use value::{Text, Value, net};
 
-/// The text of a scene, which loads as the same scene. Bezier objects with a `file` have its path instead of patches.
+/// The text of a scene, which loads as an equal scene. Bezier objects with a `file` have its path instead of patches.
 pub(super) fn text(scene: &Scene) -> String {
     let mut t = Text::default();
     t.key("version", &VERSION);

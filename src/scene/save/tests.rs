@@ -23,10 +23,10 @@ fn point() -> impl Strategy<Value = DVec3> {
     [number(), number(), number()].prop_map(DVec3::from_array)
 }
 
-/// A direction and another one across it.
+/// Two directions that are not parallel.
 fn directions() -> impl Strategy<Value = (DVec3, DVec3)> {
     let unit = [-1.0..1.0, -1.0..1.0, -1.0..1.0].prop_map(DVec3::from_array);
-    (unit.clone(), unit).prop_filter("across", |(a, b)| a.cross(*b).length() > 1e-3)
+    (unit.clone(), unit).prop_filter("not parallel", |(a, b)| a.cross(*b).length() > 1e-3)
 }
 
 fn size() -> impl Strategy<Value = f64> {

@@ -8,8 +8,8 @@ use crate::cli::{
 
 /// The medians of several runs as one table. The slopes of a run are in the line of its last mark.
 pub(super) fn table(runs: &[RunResult], threads: usize) -> String {
-    let compared = runs.iter().any(|run| run.others.is_some());
-    let others = |text: String| if compared { text } else { String::new() };
+    let has_comparison = runs.iter().any(|run| run.others.is_some());
+    let comparison = |text: String| if has_comparison { text } else { String::new() };
     let masked = runs.iter().flat_map(|run| &run.medians).any(|median| median.outside.is_some());
     let outside = |text: String| if masked { text } else { String::new() };
     let has_flip = runs.iter().flat_map(|run| &run.medians).any(|median| median.flip.is_some());
@@ -18,17 +18,17 @@ pub(super) fn table(runs: &[RunResult], threads: usize) -> String {
     let mut text = format!(
         "Medians over the seeds of each run, on {threads}. The seconds are the time of the iterations that end before the \
          mark, or of the first iteration. A slope is the power of time by which an error falls in the last two octaves. The \
-         estimate is the RMSE of the whole image, estimated without the reference.\n\n\
+         estimate is the RMSE of the whole picture, also outside the mask, estimated without the reference.\n\n\
          | scene | mark | seconds | RMSE | relMSE |{}{}{} estimate over RMSE | slope of RMSE | slope of relMSE |\n\
          |---|--:|--:|--:|--:|{}{}{}--:|--:|--:|\n",
-        others(" relMSE of others | others over ours |".to_owned()),
+        comparison(" compared relMSE | compared over ours |".to_owned()),
         outside(" RMSE outside the mask | relMSE outside the mask |".to_owned()),
         flip(" FLIP |".to_owned()),
-        others("--:|--:|".to_owned()),
+        comparison("--:|--:|".to_owned()),
         outside("--:|--:|".to_owned()),
         flip("--:|".to_owned()),
     );
-    for RunResult { name, others: rel_mse_of_others, medians } in runs {
+    for RunResult { name, others: compared_rel_mse, medians } in runs {
         for (k, median) in medians.iter().enumerate() {
             let is_last = k + 1 == medians.len();
             let slopes = slopes(medians).filter(|_| is_last);
@@ -37,7 +37,7 @@ pub(super) fn table(runs: &[RunResult], threads: usize) -> String {
                 median.mark,
                 median.seconds,
                 errors(median.errors),
-                others(format!(" {} |", rel_mse_of_others.map_or("|".to_owned(), |e| quotient(e, median.errors)))),
+                comparison(format!(" {} |", compared_rel_mse.map_or("|".to_owned(), |e| quotient(e, median.errors)))),
                 outside(format!(" {} |", median.outside.map_or("|".to_owned(), errors))),
                 flip(format!(" {} |", median.flip.map_or(String::new(), |flip| format!("{flip:.4}")))),
                 median.estimate_over_error.map_or(String::new(), |ratio| format!("{ratio:.2}")),
@@ -52,8 +52,12 @@ fn errors(pair: Pair) -> String {
     format!("{:.5} | {:.2e}", pair.rmse, pair.rel_mse)
 }
 
-fn quotient(others: f64, ours: Pair) -> String {
-    if ours.rel_mse > 0.0 { format!("{others:.1e} | {:.1}", others / ours.rel_mse) } else { format!("{others:.1e} |") }
+fn quotient(compared: f64, ours: Pair) -> String {
+    if ours.rel_mse > 0.0 {
+        format!("{compared:.1e} | {:.1}", compared / ours.rel_mse)
+    } else {
+        format!("{compared:.1e} |")
+    }
 }
 
 #[cfg(test)]

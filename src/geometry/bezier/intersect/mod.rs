@@ -2,11 +2,11 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `prepared` | `PreparedPatch`: what intersection reads |
+//! | `prepared` | `PreparedPatch`: the forms of a patch that intersection reads |
 //! | `query` | `RayQuery`: the state of one ray, its nearest hit so far |
 //! | `traversal` | one ray through the tree |
 //! | `ray_packet` | a packet of eight rays through the tree |
-//! | `subdivision` | roots where the paraboloids decide nothing |
+//! | `subdivision` | roots where the paraboloids do not decide |
 //! | `ray_aligned_net` | `RayAlignedNet`: a control net in the coordinates of a ray |
 //! | `newton` | Newton's method, and the proof that a root is unique |
 //! | `power` | `PowerForm`: a patch as Newton's method evaluates it |

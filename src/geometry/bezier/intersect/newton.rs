@@ -1,5 +1,6 @@
-//! Newton's method for the root of a ray in a subpatch, where the ray is the pair of equations that its point across the ray
-//! is zero \[Kajiya82\]. As in \[Toth85\] a bound of the Jacobian makes the result a proof.
+//! Newton's method for the hit of a ray on a subpatch: the root of two equations, the offsets of a point of the patch
+//! from the ray along two axes across the ray \[Kajiya82\]. As in \[Toth85\], a bound of the Jacobian proves the
+//! result.
 
 use super::power::{PowerForm, Tangents};
 use crate::geometry::bezier::unit::{Domain, UnitRay};
@@ -24,13 +25,13 @@ pub(crate) struct Root {
     pub(crate) z: f64,
 }
 
-/// What Newton's method has proved.
+/// The result of Newton's method, with its proof.
 pub(crate) enum Outcome {
     /// This is the only root in the subpatch.
     Root(Root),
     /// The subpatch has no root.
     NoRoot,
-    /// Nothing: subdivision has to decide.
+    /// The bounds prove neither: subdivision has to decide.
     Unknown,
 }
 
@@ -110,7 +111,8 @@ struct Step {
     slope: f64,
 }
 
-/// The Newton step, by Cramer's rule: to where the ray meets the tangent plane. Not finite where it meets none.
+/// The Newton step, by Cramer's rule, to the intersection of the ray with the tangent plane. Not finite where they are
+/// parallel.
 #[inline(always)]
 fn step(l: impl Lanes, p: &Tangents, ray: &UnitRay) -> Step {
     let to_ray = ray.origin - p.position;

@@ -12,7 +12,7 @@ pub(crate) struct PowerForm {
     coefficients: [[Row; 4]; 4],
     /// The coefficients in single precision, `[axis][i][j]`.
     single: [[[f32; 4]; 4]; 3],
-    /// How far outside of a subpatch's domain a root still is a hit.
+    /// The distance outside of a subpatch's domain up to which a root is a hit.
     pub(crate) slack: Slack,
 }
 

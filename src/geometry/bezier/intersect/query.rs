@@ -23,7 +23,7 @@ pub(crate) struct RayQuery<'a> {
 }
 
 impl<'a> RayQuery<'a> {
-    /// The query of a ray that has hit nothing yet.
+    /// The query of a ray without a hit so far.
     #[inline(always)]
     pub(crate) fn new(patch: &'a PreparedPatch, ray: UnitRay) -> Self {
         Self { patch, ray, nearest: None, subdivisions_left: MAX_SUBDIVISIONS }

@@ -18,7 +18,7 @@ const SLACK_IN_SPACE: f64 = 1e-11;
 #[derive(Clone, Copy)]
 pub(crate) struct RayAlignedNet(SoaNet);
 
-/// The affine part of a [`RayAlignedNet`], and what it proves.
+/// The affine part of a [`RayAlignedNet`], and the conclusions from it.
 pub(crate) struct Affine {
     /// Whether the control points prove that the ray misses the subpatch.
     pub(crate) is_missed: bool,
@@ -129,7 +129,7 @@ impl RayAlignedNet {
             magnitude(&x.second_differences(), &y.second_differences()),
             magnitude(&xt.second_differences(), &yt.second_differences()),
         ];
-        // A twist turns the shorter derivative: a split along the other axis reduces it.
+        // A twist turns the shorter derivative: a split along the axis across it reduces the twist.
         let reduced_by = usize::from(long[0] < long[1]);
         bend[reduced_by] = bend[reduced_by].max(magnitude(&x.mixed_differences(), &y.mixed_differences()));
         if bend[0].max(bend[1]) > 1e-3 * long[0].max(long[1]) {

@@ -28,7 +28,7 @@ struct PacketTraversal<'a, L: Lanes> {
     rays: LaneRays<L>,
     /// The upper end of each ray.
     z_max: [f32; LANES],
-    /// The greatest of them.
+    /// The greatest of the upper ends.
     farthest: f32,
 }
 

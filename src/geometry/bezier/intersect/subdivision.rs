@@ -35,8 +35,8 @@ simd_dispatch! {
     }
 }
 
-/// Looks for the root on one branch of a subpatch by Newton's method from a start (x, y), and by subdivision where that
-/// proves nothing. The branch has at most one root in the domain enlarged by the given factor.
+/// Looks for the root on one branch of a subpatch by Newton's method from a start (x, y), and by subdivision where
+/// Newton's method does not decide. The branch has at most one root in the domain enlarged by the given factor.
 #[inline(always)]
 pub(crate) fn solve_or_subdivide(
     l: impl Lanes,

@@ -1,5 +1,5 @@
-//! The criterion by which patches are cut: how far a subpatch is from a paraboloid over evenly spaced parameters. The field
-//! measures flatness \[MCFS00\]; the limits here are ours.
+//! The criterion by which patches are cut: the difference of a subpatch from a paraboloid over evenly spaced
+//! parameters. The field measures flatness \[MCFS00\]; the limits here are ours.
 
 use super::paraboloid::mean_gradients;
 use crate::geometry::bezier::unit::{Interval, Ordinates, SoaNet};

@@ -1,6 +1,6 @@
 //! A subpatch as a paraboloid, with bounds of its distance from the surface in height and in slope. Replacing a small
-//! subpatch by a simpler surface with a bound of the error is common \[Toth85\]; the paraboloid, which leaves a quadratic
-//! equation with a proof of how many roots there are, is ours.
+//! subpatch by a simpler surface with a bound of the error is common \[Toth85\]; the paraboloid, which leaves a
+//! quadratic equation and proves the number of roots, is ours.
 
 use crate::geometry::bezier::unit::{Domain, Interval, Ordinates, ROUNDING, Row, SoaNet};
 use crate::math::lanes::simd_dispatch;
@@ -21,7 +21,7 @@ pub(crate) struct Paraboloid {
     pub(crate) domain: Domain,
     /// The point at which alpha, beta and gamma are zero.
     pub(crate) center: DVec3,
-    /// The gradients of alpha, beta and gamma; that of gamma has unit length.
+    /// The gradients of alpha, beta and gamma; the gradient of gamma has unit length.
     pub(crate) axes: [DVec3; 3],
     /// The second derivatives `h_aa`, `h_ab`, `h_bb`.
     pub(crate) hessian: [f64; 3],

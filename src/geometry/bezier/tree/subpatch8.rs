@@ -199,7 +199,7 @@ impl Subpatch8 {
     ) -> u32 {
         let (mut near, mut far) = (l.sub(ray.z_min, nearest), l.sub(ray.z_max, nearest));
         for k in 0..3 {
-            // A ray parallel to a face gets a speed below rounding, so that nothing divides by zero.
+            // A ray parallel to a face gets a speed below rounding, so that no division is by zero.
             let speed = l.mul(l.sign(along[k]), l.max(l.abs(along[k]), l.splat(1e-12)));
             let extent = layout.load(l, &self.extent[k]);
             let low = l.div(l.sub(l.sub(l.splat(0.0), extent), at[k]), speed);

@@ -13,8 +13,8 @@ impl Domain {
     /// The domain of a whole patch.
     pub(crate) const WHOLE: Self = Self { x: 0.0, y: 0.0, half_x: 1.0, half_y: 1.0 };
 
-    /// How far a point is outside of the domain enlarged by a factor and then by the slack, in units of half its size;
-    /// negative inside, NaN for NaN.
+    /// The distance by which a point is outside of the domain enlarged by a factor and then by the slack, in units of
+    /// half its size; negative inside, NaN for NaN.
     #[inline(always)]
     pub(crate) fn outside(&self, x: f64, y: f64, enlargement: f64, slack: Slack) -> f64 {
         let off = |distance: f64, half: f64, slack: f64| (distance.abs() - enlargement * half - slack) / half;
@@ -60,9 +60,10 @@ impl Domain {
     }
 }
 
-/// How far outside of a subpatch's domain a root still is a hit, in x and y. Neighbouring subpatches and patches overlap by
-/// more than rounding, so that no ray slips between them, and by less than anyone can see. Where a derivative vanishes,
-/// domains that overlap do not overlap in space; there subdivision decides, with a slack of its own.
+/// The distance outside of a subpatch's domain up to which a root is a hit, in x and y. Neighbouring subpatches and
+/// patches overlap by more than rounding, so that no ray slips between them, and by an invisible amount. Where a
+/// derivative vanishes, domains that overlap do not overlap in space; there subdivision decides, with a slack of its
+/// own.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slack {
     x: f64,

@@ -3,7 +3,7 @@ use crate::math::lanes::{LANES, Lanes};
 /// One number of each of eight boxes or subpatches: a column of their structure of arrays.
 pub(crate) type Column = [f32; LANES];
 
-/// Which pairs of ray and item the lanes of a vector test: one ray against eight items, or eight rays against one item. An
+/// The pairs of ray and item in the lanes of a vector: one ray against eight items, or eight rays against one item. An
 /// item is a box or a subpatch.
 pub(crate) trait LaneLayout: Copy {
     /// The lanes in use where a group holds `items`, a bit for each lane.

@@ -57,7 +57,7 @@ impl<L: Lanes> LaneRays<L> {
         }
     }
 
-    /// Lowers `z_max` of all lanes to that of the one ray.
+    /// Lowers `z_max` of all lanes to `z_max` of the one ray.
     #[inline(always)]
     pub(crate) fn shorten(&mut self, l: L, ray: &UnitRay) {
         self.z_max = l.splat(rounded_z_max(ray));

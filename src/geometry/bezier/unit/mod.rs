@@ -3,7 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `space` | `UnitMap` from scene space to unit space, `UnitRay` |
-//! | `domain` | `Domain`, a rectangle of the parameter square; `Slack`, how far outside of it a root is a hit |
+//! | `domain` | `Domain`, a rectangle of the parameter square; `Slack`, the distance outside of it up to which a root is a hit |
 //! | `ordinates` | `Ordinates`, one coordinate of a control net; `Interval` |
 //! | `soa_net` | `SoaNet`, a control net as a structure of arrays |
 //! | `lane_layout` | `LaneLayout`: one ray against eight items, or eight rays against one |

@@ -7,7 +7,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UnitMap {
     center: DVec3,
-    /// A power of two: scaling rounds nothing.
+    /// A power of two, by which scaling is exact.
     scale: f64,
 }
 
@@ -73,7 +73,7 @@ pub(crate) struct UnitRay {
 }
 
 impl UnitRay {
-    /// A ray that misses everything.
+    /// A ray that misses every patch.
     pub(crate) const MISS: Self = Self {
         origin: DVec3::ZERO,
         direction: DVec3::Z,
