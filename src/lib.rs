@@ -19,7 +19,7 @@
 //!                                                             |        ▼
 //!                                                             |   Plan: components to render, components to skip, reasons
 //!                                                             |        ▼
-//!                                                             |   a draft, never cancelled, then finer ones, then 1, 2, ...
+//!                                                             |   a draft, never cancelled, then finer drafts, then 1, 2, ...
 //!                                                             |   ┌─ iteration i ───────────────────────────────┐
 //!                                                             |   │ photon passes ─► photons, splats            │
 //!                                                             |   │ photon maps   ─► four kd-trees              │
@@ -128,7 +128,7 @@
 //! | word | meaning |
 //! |---|---|
 //! | photon | flux that arrived at a point of a surface, with its direction |
-//! | photon map | kd-tree over photons; an iteration has one each for caustics, interreflection, indirect caustics and Phong lobes |
+//! | photon map | kd-tree over photons; an iteration has four: for caustics, interreflection, indirect caustics and Phong lobes |
 //! | projection map | density over the directions of a light that aims photons at mirrors and glass |
 //! | splat | flux of a caustic photon added to the pixel that sees it, without a density estimate (light tracing) |
 //! | density estimate | kernel-weighted sum of the flux of photons in a disc, over the kernel's integral: irradiance or radiance |
@@ -163,7 +163,7 @@
 //! | `dpdu`, `dpdv` | derivatives of the position by the parameters u and v |
 //! | subpatch | nearly flat piece of a patch over a rectangle of its parameters: a leaf's item in the tree of the patch |
 //! | unit space | coordinates of a patch in which its box has a diagonal of 1/2 to 1 |
-//! | ray packet | eight rays that go through a tree together, one in each SIMD lane |
+//! | ray packet | eight rays that traverse a tree together, a ray in each SIMD lane |
 //! | lane | slot of a SIMD vector; a vector has eight |
 //!
 //! # References

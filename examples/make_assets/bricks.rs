@@ -35,7 +35,7 @@ struct Brick {
     id: IVec2,
     /// The point seen from the brick's lower left corner, in texture widths.
     local: DVec2,
-    /// How far inside the brick the point lies, in texture widths; below 0 in a joint.
+    /// The distance of the point from the edge of the brick, in texture widths; below 0 in a joint.
     depth: f64,
 }
 

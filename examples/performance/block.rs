@@ -7,7 +7,7 @@ const END: &str = "<!-- end -->";
 ///
 /// # Errors
 ///
-/// When the page has no such block, has two, or has one without an end.
+/// When the page has no such block, two such blocks, or a block without an end.
 pub(crate) fn replaced(page: &str, name: &str, content: &str) -> Result<String, String> {
     let start = format!("<!-- table: {name} -->");
     let (before, rest) = page.split_once(&start).ok_or_else(|| format!("there is no {start}"))?;

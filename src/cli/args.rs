@@ -158,7 +158,7 @@ pub(super) struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub(super) struct IntersectArguments {
-    /// The patches: for each one a line `patch NAME` and 16 lines `x y z`, in rows of four along v
+    /// The patches: for each patch a line `patch NAME` and 16 lines `x y z`, in rows of four along v
     pub(super) patches: PathBuf,
     /// The rays: a table with a header and the columns ox, oy, oz, dx, dy, dz and optionally tmin; hits have t > tmin
     #[arg(value_name = "RAYS.csv")]

@@ -49,8 +49,8 @@ fn render_frame(file: &SceneFile, arguments: &RenderArguments) -> Result<(Frame,
     Ok((session.frame(0), cpu_seconds))
 }
 
-/// Whether the budget is spent. `last` is the time of the last iteration, in seconds: the next one, if it takes as long, must end
-/// within the budget.
+/// Whether the budget is spent. `last` is the time of the last iteration, in seconds: the next iteration, if it takes
+/// as long, must end within the budget.
 fn is_spent(budget: &Budget, session: &Session, last: f64) -> bool {
     let iterations = session.iterations();
     if let Some(limit) = budget.iterations {

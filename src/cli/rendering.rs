@@ -22,8 +22,9 @@ pub(super) fn advance(session: &mut Session) -> f64 {
     session.seconds() - before
 }
 
-/// Renders iterations while the next one would end before the session's rendering time is `seconds`, if it takes as
-/// long as the previous one. `last` is the time of the last iteration; returns the time of the new last one.
+/// Renders iterations while the next iteration would end before the session's rendering time is `seconds`, if it takes
+/// as long as the previous iteration. `last` is the time of the last iteration; returns the time of the new last
+/// iteration.
 pub(super) fn advance_until(session: &mut Session, mut last: f64, seconds: f64) -> f64 {
     while session.seconds() + last <= seconds {
         last = advance(session);

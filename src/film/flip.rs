@@ -10,7 +10,7 @@ pub fn flip(image: &LinearImage, reference: &LinearImage, tone: &ToneMap) -> Vec
     nv_flip::flip(shown(reference), shown(image), DEFAULT_PIXELS_PER_DEGREE).to_vec()
 }
 
-/// The mean of per-pixel values over the pixels inside the mask; NaN if there are none.
+/// The mean of per-pixel values over the pixels inside the mask; NaN for an empty mask.
 pub fn mean_inside(differences: &[f32], mask: Option<&Mask>) -> f64 {
     let counts = |k: usize| mask.is_none_or(|mask| mask.inside[k]);
     let counting = differences.iter().enumerate().filter(|(k, _)| counts(*k));

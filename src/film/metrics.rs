@@ -21,14 +21,15 @@ pub struct Errors {
     pub rmse_trimmed: f64,
     /// [`Errors::rel_mse`] without the worst 0.1 % of the pixels.
     pub rel_mse_trimmed: f64,
-    /// Mean of the image over mean of the reference, for each channel: shows a bias that noise hides in the other errors.
+    /// Mean of the image over mean of the reference, for each channel: shows a bias that noise hides in the mean
+    /// squared errors.
     pub mean_ratio: [f64; 3],
     /// Mean radiance of the reference, over pixels and channels.
     pub reference_mean: f64,
 }
 
-/// Compares an image with its reference, inside the mask if there is one. Values that are not finite make the errors not
-/// finite.
+/// Compares an image with its reference, inside the mask if there is a mask. Values that are not finite make the errors
+/// not finite.
 ///
 /// # Errors
 ///

@@ -84,19 +84,19 @@ impl Aggregate {
         self.bvh.distance(point, to_blocks, to)
     }
 
-    /// Shortens the ray to its nearest hit in the blocks, if there is one.
+    /// Shortens the ray to its nearest hit in the blocks, if any.
     #[inline(always)]
     fn intersect_blocks(&self, ray: &mut Ray, closest: &mut Option<Hit>) {
         with_lanes!(l => self.blocks.intersect(l.simd(), ray, closest));
     }
 
-    /// Whether the ray hits anything in the blocks.
+    /// Whether the ray hits a primitive in the blocks.
     #[inline(always)]
     fn blocks_occlude(&self, ray: &Ray) -> bool {
         with_lanes!(l => self.blocks.occluded(l.simd(), ray))
     }
 
-    /// Shortens the ray to its hit with one primitive, if there is one.
+    /// Shortens the ray to its hit with one primitive, if any.
     #[inline(always)]
     fn intersect(&self, primitive: u32, ray: &mut Ray, closest: &mut Option<Hit>) {
         if let Some((t, u, v)) = self.primitives[primitive as usize].intersect(ray) {

@@ -81,7 +81,7 @@ impl PrimitiveBlocks {
         }
     }
 
-    /// Shortens the ray to its nearest hit, if there is one.
+    /// Shortens the ray to its nearest hit, if any.
     #[inline(always)]
     pub(super) fn intersect<S: Simd>(&self, s: S, ray: &mut Ray, closest: &mut Option<Hit>) {
         if self.quads.is_empty() && self.spheres.is_empty() {

@@ -44,7 +44,7 @@ impl Plane {
         self.point + u * self.u_axis + v * self.v_axis
     }
 
-    /// The unit normal; zero if the plane was given none.
+    /// The unit normal; zero for a plane given a zero normal.
     pub fn normal(&self) -> DVec3 {
         self.normal
     }

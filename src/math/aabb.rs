@@ -1,6 +1,6 @@
 use glam::DVec3;
 
-/// An axis-aligned box; empty where a component of `min` exceeds that of `max`.
+/// An axis-aligned box; empty where a component of `min` exceeds the component of `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The corner with the smallest coordinates.

@@ -12,7 +12,7 @@ const SIDE: usize = 16;
 const POINTS: usize = 48;
 /// Samples of a test.
 const DRAWS: u64 = 100_000;
-/// Bins with a smaller expected count are pooled, because their counts are far from normal.
+/// Bins with a smaller expected count are pooled, because their counts are not normally distributed.
 const LEAST_EXPECTED: f64 = 5.0;
 
 /// Asserts that the draws of a sampler have this density (per area) over the unit square. `None` counts as a draw

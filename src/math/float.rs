@@ -3,7 +3,8 @@
 /// The offset of a ray from the surface that it leaves, relative to the largest coordinate.
 ///
 /// The position of a hit is exact to some 1e-14 of the coordinates (a few roundings of `f64` and one converged Newton
-/// step). An offset far above that never hits the surface again, and still is far too small to see.
+/// step). With an offset far above this error a ray never hits its own surface again, and the offset is still
+/// invisible.
 pub const SELF_HIT_OFFSET: f64 = 1e-11;
 
 /// The largest `f32` that is at most `x`.

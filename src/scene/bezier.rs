@@ -7,7 +7,7 @@ use std::sync::Arc;
 pub struct Bezier {
     /// From the object space of the patches to the world.
     pub transform: Transform,
-    /// The control nets in object space; shared, so that a clone copies none.
+    /// The control nets in object space; reference-counted, so that a clone does not copy them.
     pub patches: Arc<Vec<ControlNet>>,
     /// The `.bpt` file with exactly these patches, relative to the scene file; `None` if the scene file holds them.
     pub file: Option<String>,

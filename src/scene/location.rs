@@ -111,7 +111,7 @@ impl Location {
     }
 }
 
-/// The path relative to `folder`, or absolute if there is none. Separated by `/` on every system.
+/// The path relative to `folder`, or the absolute path where no relative path exists. Separated by `/` on every system.
 pub(super) fn relative_to(folder: &Path, path: &Path) -> io::Result<String> {
     let path = std::path::absolute(path)?;
     // Resolves symbolic links, from which `..` leads elsewhere.

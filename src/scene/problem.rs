@@ -15,13 +15,13 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Whether `path` is `ancestor` or the path of something inside it.
+/// Whether `path` is `ancestor` or the path of a value inside it.
 pub(super) fn is_within(path: &str, ancestor: &str) -> bool {
     path.strip_prefix(ancestor)
         .is_some_and(|rest| rest.is_empty() || ancestor.is_empty() || rest.starts_with(['.', '[']))
 }
 
-/// A suggestion for the end of a message: the known name nearest to `name`, or empty if none is near.
+/// A suggestion for the end of a message: the known name nearest to `name`, or empty if no name is near.
 pub(super) fn suggestion<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     // Typing errors make about one edit in three letters; a larger limit would suggest unrelated words.
     let limit = 1 + name.chars().count() / 3;
@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn suggests_only_what_is_near() {
+    fn suggests_only_near_names() {
         let known = ["radius", "center", "material"];
         assert_eq!(suggestion("raduis", known), "; did you mean \"radius\"?");
         assert_eq!(suggestion("Center", known), "; did you mean \"center\"?");

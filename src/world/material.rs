@@ -34,7 +34,7 @@ pub struct Material {
     relief: Option<Relief>,
     /// Texture lookups for one scattering and normal.
     lookups: u32,
-    /// The scattering of a material without textures, computed once: most points need no more.
+    /// The scattering of a material without textures, computed once per material instead of at every point.
     uniform: Option<Scattering>,
 }
 

@@ -123,7 +123,7 @@ fn aggregate(descriptions: Vec<Description>, previous: Option<&World>) -> Aggreg
     }
 }
 
-/// The images decoded so far, and the source of more.
+/// The images decoded so far, and the location of the files of further images.
 struct Textures<'a> {
     scene: &'a Scene,
     location: &'a Location,

@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn deep_and_flat_codes_mean_the_same() {
+    fn deep_and_flat_codes_have_equal_values() {
         let folder = tempfile::tempdir().unwrap();
         let location = Location::Disk(folder.path().join("scene.toml"));
         let decode = |file: &str, linear| {

@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_towards_the_camera_moves_nothing() {
+    fn a_drag_along_an_axis_towards_the_camera_moves_no_handle() {
         let start = DVec3::new(0.3, -0.2, 0.5);
         let (drag, pointer) = grabbed(start, DVec2::ZERO);
         let axis = (start - DVec3::new(1.0, 2.0, 4.0)).normalize();

@@ -5,7 +5,7 @@ use crate::math::Ray;
 use crate::scene::{Bezier, Object, Scene, Shape};
 use glam::DVec3;
 
-/// The index of the nearest object that the ray meets; `None` where it meets none.
+/// The index of the nearest object that the ray meets; `None` where the ray meets no object.
 pub(crate) fn nearest_object(scene: &Scene, ray: &Ray) -> Option<usize> {
     let hits = scene.objects.iter().enumerate().filter_map(|(index, object)| Some((index, distance(object, ray)?)));
     hits.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(index, _)| index)

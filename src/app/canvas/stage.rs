@@ -76,8 +76,8 @@ impl Stage<'_> {
         selection
     }
 
-    /// The handles that a drag of `handle` moves: for a selected control point all selected ones, with the control points
-    /// welded to them.
+    /// The handles that a drag of `handle` moves: for a selected control point all selected control points, with the
+    /// control points welded to them.
     pub(crate) fn moved_with(&self, handle: Handle) -> Vec<Handle> {
         let Handle::Point { object, point } = handle else { return vec![handle] };
         let selection = &self.document.selection;

@@ -48,8 +48,8 @@ const NONE: Modifiers = Modifiers::NONE;
 type Keys = &'static [(Modifiers, Key)];
 type Row = (Action, &'static str, Keys);
 
-/// Each action with its label and shortcuts. Of two shortcuts that differ only in Shift, the one with Shift comes first,
-/// because egui's `consume_shortcut` ignores Shift where a shortcut does not ask for it.
+/// Each action with its label and shortcuts. Of two shortcuts that differ only in Shift, the shortcut with Shift comes
+/// first, because egui's `consume_shortcut` ignores Shift where a shortcut does not ask for it.
 const TABLE: &[Row] = &[
     (Action::New, "New scene", &[(CTRL, Key::N)]),
     (Action::Open, "Open…", &[(CTRL, Key::O)]),
@@ -82,7 +82,7 @@ impl Action {
         TABLE.iter().find(|(action, ..)| *action == self).map_or("", |(_, label, _)| label)
     }
 
-    /// The action's first shortcut as text; empty where it has none.
+    /// The action's first shortcut as text; empty for an action without a shortcut.
     pub(crate) fn shortcut(self, ctx: &Context) -> String {
         self.shortcuts(ctx).into_iter().next().unwrap_or_default()
     }
@@ -132,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_two_actions_share_a_key() {
+    fn shortcuts_are_unique() {
         let mut seen = std::collections::HashSet::new();
         for (action, _, keys) in TABLE {
             for key in *keys {

@@ -67,7 +67,7 @@ impl Edit {
         }
     }
 
-    /// The item that this edit would append to `scene`; `None` where it appends none.
+    /// The item that this edit would append to `scene`; `None` for an edit that appends no item.
     pub(crate) fn added_item(&self, scene: &Scene) -> Option<Item> {
         Some(match self {
             Self::AddObject(_) => Item::Object(scene.objects.len()),
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn an_index_out_of_range_changes_nothing() {
+    fn an_index_out_of_range_has_no_effect() {
         let mut changed = scene();
         let ball = changed.objects[0].clone();
         for edit in [Edit::Object(7, ball), Edit::Remove(Item::Light(3)), Edit::Remove(Item::Camera)] {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Control points nearer to each other than this fraction of their object's size are welded: they share one handle.
+/// Control points nearer to each other than this fraction of their object's size are welded: they have one handle.
 const WELD_TOLERANCE: f64 = 1e-9;
 
 /// A point of the scene that the user can drag; an index is the item's position in its list.
@@ -83,7 +83,7 @@ impl Handle {
     }
 }
 
-/// The handles to draw: every light, the selected object and its control points. Welded control points share one handle.
+/// The handles to draw: every light, the selected object and its control points. Welded control points have one handle.
 pub(crate) fn visible(scene: &Scene, selected: Item) -> Vec<Handle> {
     let mut handles: Vec<Handle> = (0..scene.lights.len()).map(Handle::Light).collect();
     if let Item::Object(object) = selected {

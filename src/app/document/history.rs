@@ -3,7 +3,7 @@
 /// States kept at most. A state is small, because copies of a scene share their control points.
 const CAPACITY: usize = 500;
 
-/// The states before and after the present one.
+/// The states before and after the present state.
 #[derive(Debug)]
 pub(crate) struct History<State, Key> {
     before: Vec<(State, Key)>,

@@ -13,7 +13,7 @@ use std::sync::Arc;
 pub(crate) struct Document {
     file: Arc<SceneFile>,
     saved: Arc<SceneFile>,
-    /// The scene's file; `None` for a built-in scene and for one that was never saved.
+    /// The scene's file; `None` for a built-in scene and for a scene that was never saved.
     path: Option<PathBuf>,
     /// The item that the panels and the canvas show.
     pub(crate) selection: Selection,
@@ -42,7 +42,7 @@ impl Document {
         &self.file
     }
 
-    /// The scene's file; `None` for a built-in scene and for one that was never saved.
+    /// The scene's file; `None` for a built-in scene and for a scene that was never saved.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }

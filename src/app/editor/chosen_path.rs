@@ -89,7 +89,7 @@ impl Editor {
         self.ask_for_path(ctx, Purpose::ExportSurface);
     }
 
-    /// Continues the exports, and reports the finished ones.
+    /// Continues the exports, and reports the finished exports.
     pub(crate) fn poll_export(&mut self, ctx: &Context) {
         let film = self.document.scene().film;
         for exported in self.export.poll(ctx, self.rendering.full_frame(), film) {

@@ -2,7 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `paths` | proposed paths, and the extensions of typed ones |
+//! | `paths` | proposed paths, and the extensions of chosen paths |
 //! | `chooser` | [`Chooser`]: the desktop's file dialogs, on a thread of their own |
 //! | `path_field` | [`PathField`]: a typed path, where no file dialog is available |
 //! | `export` | [`Export`]: writing of pictures and surfaces off the UI thread |

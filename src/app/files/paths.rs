@@ -20,7 +20,7 @@ pub(crate) fn proposed(document: &Document, purpose: Purpose) -> PathBuf {
     folder.join(stem).with_extension(purpose.extensions()[0])
 }
 
-/// The path, with the default extension appended where a file to write has none.
+/// The path, with the default extension appended where a file to write lacks an extension.
 ///
 /// # Errors
 /// Returns a message for a file to write in an unknown format.

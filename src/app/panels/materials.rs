@@ -72,7 +72,7 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
     }
 }
 
-/// A colour, or a texture if the scene has one.
+/// A colour, or a texture if the scene has textures.
 fn surface_color_ui(ui: &mut Ui, name: &str, color: &mut Color, scene: &Scene) {
     match color {
         Color::Constant(value) => color_row(ui, name, value),

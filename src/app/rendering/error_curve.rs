@@ -17,7 +17,7 @@ impl ErrorCurve {
         &self.points
     }
 
-    /// Clears the curve if `generation` is a new one.
+    /// Clears the curve if `generation` is new.
     pub(crate) fn begin(&mut self, generation: u64) {
         if self.generation != generation {
             *self = Self { generation, points: Vec::new() };

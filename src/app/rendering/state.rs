@@ -37,7 +37,7 @@ impl Rendering {
         }
     }
 
-    /// Takes the engine's status, and its newest frame if it made one since the last call.
+    /// Takes the engine's status, and its newest frame if the engine made a frame since the last call.
     pub(crate) fn receive(&mut self, frame: Option<Arc<Frame>>, status: Status) {
         self.status = status;
         let Some(frame) = frame else { return };

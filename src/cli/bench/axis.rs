@@ -23,7 +23,7 @@ pub(super) fn is_shown(value: f64) -> bool {
     RANGE.contains(&value)
 }
 
-/// The axis of all values that can be shown; around 1 if there are none.
+/// The axis of all values that can be shown; around 1 without such values.
 pub(super) fn axis(values: impl Iterator<Item = f64>) -> Axis {
     let ends = values.filter(|x| is_shown(*x)).fold(None, |ends: Option<(f64, f64)>, x| {
         let (low, high) = ends.unwrap_or((x, x));

@@ -9,11 +9,11 @@ pub(super) struct Measurement {
     /// The statistics at the measurement; their seconds are the actual time of the iterations.
     pub(super) stats: Stats,
     pub(super) errors: Errors,
-    /// The errors outside the mask, if there is one.
+    /// The errors outside the mask; `None` without a mask.
     pub(super) outside: Option<Errors>,
     /// The mean FLIP of the pixels inside the mask, 0 to 1; `None` without the feature `flip`.
     pub(super) flip: Option<f64>,
-    /// The mean FLIP outside the mask, if there is one.
+    /// The mean FLIP outside the mask; `None` without a mask.
     pub(super) flip_outside: Option<f64>,
 }
 

@@ -15,7 +15,7 @@ pub(super) struct Median {
     /// The actual time of the iterations.
     pub(super) seconds: f64,
     pub(super) errors: Pair,
-    /// The errors outside the mask, if there is one.
+    /// The errors outside the mask; `None` without a mask.
     pub(super) outside: Option<Pair>,
     /// The mean FLIP, if it was measured.
     pub(super) flip: Option<f64>,

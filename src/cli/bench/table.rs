@@ -123,7 +123,7 @@ mod tests {
         let text = summary(&rows, 3);
         assert!(text.starts_with("medians of 3 seeds\n"), "{text}");
         assert!(text.contains("       1       1.00    0.20000   4.000e-2\n"), "{text}");
-        assert!(!text.contains("falls as"), "there is one time only: {text}");
+        assert!(!text.contains("falls as"), "a single time has no slope: {text}");
         assert!(!summary(&rows[..1], 1).contains("median"));
     }
 }

@@ -26,7 +26,7 @@ pub enum BptProblem {
     Unexpected {
         /// The expected item.
         expected: String,
-        /// The word in its place.
+        /// The word found instead.
         found: String,
     },
     /// Degrees other than 3 3.

@@ -4,9 +4,10 @@ use super::{ControlNet, Patch};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
-/// A mesh of quads, and of triangles where an edge of a patch is a point. Coincident corners are one vertex, within a patch
-/// and between patches, so that closed surfaces give closed meshes. A vertex has one normal and one (u, v), also on creases
-/// and between patches with different parameters: other programs split a mesh where vertices have several.
+/// A mesh of quads, and of triangles where an edge of a patch is a point. Coincident corners become one vertex, within
+/// a patch and between patches, so that closed surfaces give closed meshes. A vertex has one normal and one (u, v),
+/// also on creases and between patches with different parameters: other programs split a mesh where vertices have
+/// several.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadMesh {
     /// The vertices, in scene units.
@@ -104,13 +105,13 @@ fn weld_distance(nets: &[ControlNet]) -> f64 {
 
 /// Finds existing vertices in the cells of a grid.
 struct Weld {
-    /// Vertices at most this far apart are one; the cells are twice as wide.
+    /// Vertices within this distance become one vertex; the cells are twice as wide.
     distance: f64,
     cells: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl Weld {
-    /// The index of the vertex at p, which is added if there is none.
+    /// The index of the vertex at p; adds a vertex where none exists.
     fn vertex(&mut self, p: DVec3, positions: &mut Vec<DVec3>) -> usize {
         let scale = if self.distance > 0.0 { 0.5 / self.distance } else { 0.0 };
         // Points within half a cell of p lie in the eight cells around the cell corner nearest to p.
@@ -178,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn collapsed_edges_give_triangles_and_points_give_nothing() {
+    fn collapsed_edges_give_triangles_and_points_give_no_face() {
         let mut net = cube()[0];
         net.points[0] = [net.points[0][0]; 4];
         let mesh = QuadMesh::new(&[net], 3);

@@ -20,8 +20,8 @@
 //!    \[GeimerAbert05\]; eight children per node side by side in SIMD lanes: \[DHK08\].
 //! 3. In a leaf, the ray is intersected with paraboloids that approximate eight subpatches, with bounds of the error.
 //!    The bounds limit the number of roots and their positions. (Ours.)
-//! 4. Newton's method finds a root \[Kajiya82\], \[BarthStuerzlinger93\] and a bound of the Jacobian proves it the only one
-//!    \[Toth85\].
+//! 4. Newton's method finds a root \[Kajiya82\], \[BarthStuerzlinger93\] and a bound of the Jacobian proves that it is
+//!    the only root \[Toth85\].
 //! 5. Where neither decides, the subpatch is halved in ray-aligned coordinates \[NSK90\], rotated to its longer side
 //!    \[EHS05\], until Newton's method does.
 //!

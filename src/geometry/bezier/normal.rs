@@ -3,7 +3,7 @@
 use super::{ControlNet, Derivatives};
 use glam::DVec3;
 
-/// Distances in (u, v) of the neighbours whose normals stand in for one that has no limit.
+/// Distances in (u, v) of the neighbours whose normals stand in for a normal without a limit.
 const NEIGHBOUR_STEPS: [f64; 4] = [1e-3, 1e-2, 0.1, 0.5];
 
 /// The unit vector along `dS/du x dS/dv`. Where that vanishes (a collapsed edge, equal rows, a cusp), its limit along the
@@ -14,7 +14,7 @@ const NEIGHBOUR_STEPS: [f64; 4] = [1e-3, 1e-2, 0.1, 0.5];
 pub(super) fn unit_normal(net: &ControlNet, u: f64, v: f64) -> DVec3 {
     let size = net.bounds().diagonal();
     let inward = |x: f64| if x < 0.5 { 0.5 } else { -0.5 };
-    // On a middle line the way to the center leads along the line; at the center there is none.
+    // On a middle line the way to the center leads along the line; at the center no way is left.
     let directions = [(0.5 - u, 0.5 - v), (inward(u), 0.0), (0.0, inward(v))];
     let here = net.derivatives(u, v);
     let limits = directions.iter().find_map(|&direction| limit_normal(&here, direction, size));

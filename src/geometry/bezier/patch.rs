@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_without_direction_and_nan_hit_nothing() {
+    fn rays_without_direction_and_nan_miss() {
         let patch = Patch::new(net(|u, v| DVec3::new(u, v, 0.0)));
         let through = DVec3::new(0.5, 0.5, 1.0);
         for direction in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
@@ -231,7 +231,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
-        /// Any net and any ray: a hit lies on the ray and within range, or there is none.
+        /// Any net and any ray: a hit lies on the ray and within range.
         #[test]
         fn any_hit_is_on_the_ray(
             coordinates in prop::collection::vec(-1.0f64..1.0, 48),

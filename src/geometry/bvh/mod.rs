@@ -152,7 +152,7 @@ impl Bvh {
 /// Nodes and items to visit, each with t of the entry, the nearest on top.
 type Stack = ArrayVec<(f64, i32), STACK_CAPACITY>;
 
-/// Pushes the children that the ray hits, far ones first, by insertion sort: they are few.
+/// Pushes the children that the ray hits, far children first, by insertion sort, because the children are few.
 #[inline(always)]
 fn push_sorted(stack: &mut Stack, near: &[f64; WIDTH], children: &[i32]) {
     let first = stack.len();
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn finds_what_a_linear_scan_finds() {
+    fn finds_the_hits_of_a_linear_scan() {
         for (count, scale, size) in [(1, 1.0, 0.5), (7, 1e-6, 0.1), (9, 1e6, 0.1), (300, 1.0, 0.05), (2000, 1.0, 0.0)] {
             let boxes = random_boxes(count, scale, size);
             let bvh = Bvh::build(&boxes);

@@ -71,11 +71,15 @@ fn other_files_are_never_overwritten() {
     assert_ne!(file.scene.textures[0].file, name);
     let count = fs::read_dir(dir.path()).unwrap().count();
     SceneFile::built_in("report").unwrap().save(&dir.path().join("b.toml")).unwrap();
-    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), count + 1, "the second scene shares the first one's files");
+    assert_eq!(
+        fs::read_dir(dir.path()).unwrap().count(),
+        count + 1,
+        "the second scene refers to the files of the first"
+    );
 }
 
 #[test]
-fn a_save_that_fails_changes_nothing() {
+fn a_failed_save_leaves_the_file_unchanged() {
     let mut file = SceneFile::built_in("cornell").unwrap();
     let before = file.clone();
     let message = file.save(Path::new("no such folder/a.toml")).unwrap_err().to_string();

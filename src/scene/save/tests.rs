@@ -166,7 +166,7 @@ prop_compose! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
     #[test]
-    fn a_saved_scene_loads_as_the_same_scene(scene in scene()) {
+    fn a_saved_scene_loads_as_an_equal_scene(scene in scene()) {
         prop_assume!(validate(&scene).is_empty());
         let location = Location::Disk(std::path::PathBuf::from("src/test.toml"));
         let text = super::text(&scene);

@@ -4,7 +4,7 @@ use crate::{
 };
 use glam::DVec3;
 
-/// The largest coordinate: its cube in f64, and the square of a transformed one in f32, are far from overflow.
+/// The largest coordinate: its cube in f64, and the square of a transformed coordinate in f32, are far from overflow.
 pub(super) const MAX_LENGTH: f64 = 1e9;
 
 /// The smallest length of a vector that must have a direction: its square is far from underflow in f32.

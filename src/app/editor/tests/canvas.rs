@@ -211,7 +211,7 @@ fn a_light_is_dragged() {
 }
 
 #[test]
-fn nothing_reacts_under_a_dialog() {
+fn widgets_under_a_dialog_do_not_react() {
     let mut ui = open("report");
     let (before, at) = (scene(&ui).clone(), ui.get_by_label(POINT).rect().center());
     let labelled = |ui: &Ui| ui.query_all_by_label(POINT).count();

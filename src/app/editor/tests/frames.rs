@@ -46,7 +46,7 @@ fn a_failure_is_reported_and_the_scene_stays() {
 fn the_first_estimate_is_shown() {
     let mut ui = open("cornell");
     receive(&mut ui, frame(1, true, 8));
-    assert!(ui.query_by_label("No error estimate yet").is_some(), "a draft has none");
+    assert!(ui.query_by_label("No error estimate yet").is_some(), "a draft has no estimate");
     receive(&mut ui, frame(1, false, 16));
     assert!(ui.query_by_label("No error estimate yet").is_none(), "one measurement is an estimate");
 }

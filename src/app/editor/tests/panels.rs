@@ -51,7 +51,7 @@ fn every_patch_of_an_object_can_be_reached() {
 }
 
 #[test]
-fn exposure_restarts_nothing_and_can_be_undone() {
+fn exposure_does_not_restart_rendering_and_can_be_undone() {
     let mut ui = open("cornell");
     sent_scenes(&mut ui);
     let before = scene(&ui).film.exposure;

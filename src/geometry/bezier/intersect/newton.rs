@@ -35,8 +35,8 @@ pub(crate) enum Outcome {
     Unknown,
 }
 
-/// Why a root in a subpatch is unique: from this, Newton's method concludes that its root is the only one, or that there is
-/// none.
+/// Why a root in a subpatch is unique: from this, Newton's method concludes that its root is the only root, or that no
+/// root exists.
 pub(crate) struct Uniqueness {
     /// The domain enlarged by this factor has at most one root with this `slope`.
     pub(crate) enlargement: f64,

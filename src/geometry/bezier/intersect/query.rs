@@ -9,8 +9,8 @@ pub(crate) struct Hit {
     pub(crate) t: f64,
 }
 
-/// Subpatches that subdivision may look at before it gives up on a ray, one that runs within the surface; rays that graze
-/// the surface need a few dozen.
+/// Subpatches that subdivision may look at before it gives up on a ray, which then runs within the surface; rays that
+/// graze the surface need a few dozen.
 const MAX_SUBDIVISIONS: usize = 5_000;
 
 /// The state of one ray on its way through a patch.

@@ -118,7 +118,7 @@ impl RayAlignedNet {
         })
     }
 
-    /// Whether to split in u rather than in v: along the axis along which the subpatch bends more, or the longer one of a
+    /// Whether to split in u rather than in v: along the axis of the stronger bending, or along the longer axis of a
     /// subpatch that hardly bends.
     #[inline(always)]
     pub(crate) fn splits_in_u(&self) -> bool {

@@ -1,5 +1,5 @@
-//! A packet of eight rays through the tree of a patch, a ray in each lane \[WSBW01\]: faster than one by one for coherent
-//! rays, as a camera's are. Each ray finds the hit that it finds alone.
+//! A packet of eight rays through the tree of a patch, a ray in each lane \[WSBW01\]: faster than single rays if they
+//! are coherent, as camera rays are. A ray has the same hit as alone.
 
 use super::power::PowerForm;
 use super::prepared::PreparedPatch;

@@ -8,14 +8,14 @@ use glam::DVec3;
 use std::array::from_fn;
 
 /// The paraboloid of a subpatch describes a domain larger than the subpatch's own by this factor: its bounds hold in the
-/// neighbourhood too, and a root just outside proves that there is none inside.
+/// neighbourhood too, and a root just outside proves that no root is inside.
 pub(crate) const MARGIN: f64 = 1.25;
 
 /// A subpatch in unit space, in coordinates (alpha, beta, gamma) in which it is nearly the graph
 /// `gamma = offset + h_aa alpha^2 / 2 + h_ab alpha beta + h_bb beta^2 / 2` over a square.
 ///
 /// The parameters s and t of the subpatch run from `-1 / MARGIN` to `1 / MARGIN`; all bounds hold from -1 to 1. The
-/// numbers are rounded to `f32` first, so that the bounds hold for the rounded ones.
+/// numbers are rounded to `f32` first, so that the bounds hold for the rounded numbers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Paraboloid {
     pub(crate) domain: Domain,

@@ -23,7 +23,7 @@ pub(crate) struct Subpatch8 {
 /// The candidate roots of rays and subpatches, by lanes. The height of a ray over a paraboloid is monotone on two branches;
 /// where the paraboloid decides, the surface has at most one root on each.
 pub(crate) struct Candidates {
-    /// Bit k: the surface may have a root on the first branch of lane k; bit 8 + k: on its second one.
+    /// Bit k: the surface may have a root on the first branch of lane k; bit 8 + k: on its second branch.
     pub(crate) branches: u32,
     /// Bit k: the paraboloid does not decide lane k.
     pub(crate) undecided: u32,
@@ -115,7 +115,7 @@ impl Subpatch8 {
     /// two roots of the surface the mean slope of the true height is zero, and it differs by at most `slope_error` from the
     /// mean slope of h, which is h'(w) for some w between them. With `d = b^2 - 4 a c`: roots of the surface lie where
     /// `|h| <= error`, thus where `|h'|^2 >= d - 4 |a| error`. If that exceeds `slope_error` squared, there is at most one
-    /// root on each side of the vertex. If `d + 4 |a| error < 0`, there is none.
+    /// root on each side of the vertex. If `d + 4 |a| error < 0`, there is no root.
     #[inline(always)]
     pub(crate) fn intersect_paraboloids<L: Lanes>(
         &self,
@@ -211,7 +211,7 @@ impl Subpatch8 {
     }
 }
 
-/// Where rays meet paraboloids on one of their branches, by lanes.
+/// The intersections of rays with paraboloids on one branch, by lanes.
 struct BranchRoots<L: Lanes> {
     z: L::Vector,
     alpha: L::Vector,
