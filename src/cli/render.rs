@@ -19,7 +19,7 @@ use std::{
     path::Path,
 };
 
-/// `patchlight render`: renders an image and writes it.
+/// `patchlight render`: renders a picture and writes it.
 pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
     let format = Format::of(&arguments.output)?;
     needs_folder(&arguments.output)?;

@@ -1,4 +1,4 @@
-//! Error over time: how fast the image of a scene converges to a reference.
+//! Error over time: the convergence of the picture of a scene to a reference.
 //!
 //! | file | holds |
 //! |---|---|
