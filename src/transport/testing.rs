@@ -6,54 +6,17 @@ use crate::math::{Ray, Rgb};
 use crate::scene::{Location, SceneFile};
 use crate::world::{Lobe, Scattering, Surface, World, prepare};
 use glam::{DVec2, Vec3};
+use scene_text::HEAD;
 
-/// A camera, and materials named by what they are: white, grey (albedo 0.5), black, mirror (reflectance 0.8).
-const HEAD: &str = r#"version = 1
-[camera]
-position = [0, 0, 4]
-target = [0, 0, 0]
-fov_y = 40
-[[material]]
-name = "white"
-type = "diffuse"
-albedo = [1, 1, 1]
-[[material]]
-name = "grey"
-type = "diffuse"
-albedo = [0.5, 0.5, 0.5]
-[[material]]
-name = "black"
-type = "diffuse"
-albedo = [0, 0, 0]
-[[material]]
-name = "mirror"
-type = "mirror"
-reflectance = [0.8, 0.8, 0.8]
-"#;
+#[path = "../../tests/shared/scene_text.rs"]
+mod scene_text;
 
-/// The world of a scene with the materials white, grey, black and mirror.
+pub(super) use scene_text::{lamp, quad, sphere};
+
+/// The world of a scene's text with the camera and the materials white, grey, black and mirror.
 pub(super) fn world(text: &str) -> World {
-    let file = SceneFile::parse(&format!("{HEAD}{text}"), Location::Unsaved).expect("the scene is valid");
+    let file = SceneFile::parse(&format!("version = 1\n{HEAD}{text}"), Location::Unsaved).expect("the scene is valid");
     prepare(&file.scene, &file.location, None).expect("the scene can be prepared")
-}
-
-/// The text of a sphere.
-pub(super) fn sphere(name: &str, center: [f64; 3], radius: f64, material: &str) -> String {
-    object(name, "sphere", material, &format!("center = {center:?}\nradius = {radius}"))
-}
-
-/// The text of a quad.
-pub(super) fn quad(name: &str, [corner, edge_u, edge_v]: [[f64; 3]; 3], material: &str) -> String {
-    object(name, "quad", material, &format!("corner = {corner:?}\nedge_u = {edge_u:?}\nedge_v = {edge_v:?}"))
-}
-
-fn object(name: &str, shape: &str, material: &str, rest: &str) -> String {
-    format!("[[object]]\nname = \"{name}\"\ntype = \"{shape}\"\nmaterial = \"{material}\"\n{rest}\n")
-}
-
-/// The text of a point light of intensity 1.
-pub(super) fn lamp(position: [f64; 3]) -> String {
-    format!("[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = {position:?}\nintensity = [1, 1, 1]\n")
 }
 
 /// The vertex at a ray's first hit.

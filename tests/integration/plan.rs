@@ -1,6 +1,6 @@
 //! The components that the plan renders and skips.
 
-use crate::support::{HEAD, ball, floor, world};
+use crate::support::{ball, floor, head, quad, sphere, world};
 use patchlight::transport::{Plan, PlanItem};
 
 const DIRECT: PlanItem = PlanItem::DirectLight;
@@ -10,27 +10,27 @@ const INTERREFLECTION: PlanItem = PlanItem::Interreflection;
 
 /// The components that the plan renders in a scene with these objects.
 fn rendered(max_bounces: u32, objects: &[String]) -> Vec<PlanItem> {
-    let text = format!("{HEAD}{}[render]\nmax_bounces = {max_bounces}\n", objects.concat());
+    let text = format!("{}{}[render]\nmax_bounces = {max_bounces}\n", head(), objects.concat());
     let notes = Plan::new(&world(&text)).notes;
     assert!(notes.iter().all(|note| !note.reason.is_empty()), "every decision has a reason: {notes:?}");
     notes.into_iter().filter(|note| note.rendered).map(|note| note.item).collect()
 }
 
 #[test]
-fn only_what_can_contribute_is_rendered() {
-    let (white, mirror) = (ball("a", 0.0, 0.5, "white"), ball("b", 1.5, 0.5, "mirror"));
+fn only_components_that_can_contribute_are_rendered() {
+    let (grey, mirror) = (ball("a", 0.0, 0.5, "grey"), ball("b", 1.5, 0.5, "mirror"));
     let cases: [(u32, &[String], &[PlanItem]); 9] = [
-        (16, &[floor("white"), white.clone(), mirror.clone()], &[DIRECT, CAUSTICS, SEEN, INTERREFLECTION]),
-        (16, &[floor("white"), white.clone()], &[DIRECT, INTERREFLECTION]),
-        (1, &[floor("white"), white.clone(), mirror.clone()], &[DIRECT]),
-        // From the light to a mirror, a floor, the mirror again and the eye takes three events.
-        (2, &[floor("white"), white.clone(), mirror.clone()], &[DIRECT, CAUSTICS, INTERREFLECTION]),
+        (16, &[floor("grey"), grey.clone(), mirror.clone()], &[DIRECT, CAUSTICS, SEEN, INTERREFLECTION]),
+        (16, &[floor("grey"), grey.clone()], &[DIRECT, INTERREFLECTION]),
+        (1, &[floor("grey"), grey.clone(), mirror.clone()], &[DIRECT]),
+        // From the light to a mirror, a floor, the mirror again and the camera takes three events.
+        (2, &[floor("grey"), grey.clone(), mirror.clone()], &[DIRECT, CAUSTICS, INTERREFLECTION]),
         // A floor lights itself by way of a mirror alone, which takes three events too.
-        (2, &[floor("white"), mirror.clone()], &[DIRECT, CAUSTICS]),
-        (16, &[floor("white"), mirror.clone()], &[DIRECT, CAUSTICS, SEEN, INTERREFLECTION]),
+        (2, &[floor("grey"), mirror.clone()], &[DIRECT, CAUSTICS]),
+        (16, &[floor("grey"), mirror.clone()], &[DIRECT, CAUSTICS, SEEN, INTERREFLECTION]),
         // Convex from where the light is; around the light it is not.
-        (16, &[white], &[DIRECT]),
-        (16, &[ball("room", 0.0, 5.0, "white")], &[DIRECT, INTERREFLECTION]),
+        (16, &[grey], &[DIRECT]),
+        (16, &[ball("room", 0.0, 5.0, "grey")], &[DIRECT, INTERREFLECTION]),
         (16, &[floor("black"), mirror], &[]),
     ];
     for (max_bounces, objects, expected) in cases {
@@ -38,75 +38,33 @@ fn only_what_can_contribute_is_rendered() {
     }
 }
 
-/// A lamp in front of a wall, and one behind it that is twenty times as strong.
+/// A lamp in front of a wall, and a lamp behind it that is twenty times as strong.
 fn two_lamps(objects: &str) -> String {
-    format!(
-        r#"{HEAD}
-    [[light]]
-    name = "outside"
-    type = "point"
-    position = [0, 0, -6]
-    intensity = [20, 20, 20]
-    [[object]]
-    name = "wall"
-    type = "quad"
-    material = "white"
-    corner = [-0.3, -1, -1]
-    edge_u = [0.6, 0, 0]
-    edge_v = [0, 1.5, 0]
-    {objects}"#
-    )
+    let outside = "[[light]]\nname = \"outside\"\ntype = \"point\"\nposition = [0, 0, -6]\nintensity = [20, 20, 20]\n";
+    let wall = quad("wall", [[-0.3, -1.0, -1.0], [0.6, 0.0, 0.0], [0.0, 1.5, 0.0]], "grey");
+    [&head(), outside, &wall, objects].concat()
 }
 
 #[test]
-fn lamps_that_light_nothing_in_view_get_few_paths() {
-    let plan = |objects: &str| {
-        let text = two_lamps(&format!("{}{objects}", floor("white")));
-        Plan::new(&world(&text))
-    };
-    // The floor is an endless plane: light from behind the wall reaches what the camera sees of it in front.
-    let closed =
-        "[[object]]\nname = \"lid\"\ntype = \"sphere\"\ncenter = [0, 0, -6]\nradius = 0.5\nmaterial = \"white\"\n";
-    let plan = [plan(""), plan(closed)];
-    assert!(plan[0].global_paths[1] > plan[0].global_paths[0], "the stronger one");
+fn lamps_whose_light_stays_out_of_view_get_few_paths() {
+    let plan = |objects: &str| Plan::new(&world(&two_lamps(&(floor("grey") + objects))));
+    // The floor is an endless plane: light from behind the wall reaches the visible floor in front of the wall.
+    let plan = [plan(""), plan(&sphere("lid", [0.0, 0.0, -6.0], 0.5, "grey"))];
+    assert!(plan[0].global_paths[1] > plan[0].global_paths[0], "the stronger lamp");
     assert!(plan[1].global_paths[1] < plan[1].global_paths[0] && plan[1].global_paths[1] > 0, "but not quite none");
     let is_said = |plan: &Plan| plan.notes.iter().any(|note| note.item == PlanItem::PathsOutOfView);
     assert_eq!(plan.each_ref().map(is_said), [false, true]);
 }
 
 #[test]
-fn what_is_seen_in_a_mirror_is_in_view() {
-    let mirror =
-        "[[object]]\nname = \"mirror\"\ntype = \"sphere\"\ncenter = [1, 0, 0]\nradius = 0.5\nmaterial = \"mirror\"\n";
-    // Behind the camera a screen, lit from its far side's lamp: only the ball shows it.
-    let text = |mirror: &str| {
-        format!(
-            "{HEAD}{}{mirror}",
-            r#"
-    [[light]]
-    name = "behind"
-    type = "quad"
-    corner = [-1, 0, 8]
-    edge_u = [2, 0, 0]
-    edge_v = [0, 1, 0]
-    radiance = [1, 1, 1]
-    [[object]]
-    name = "screen"
-    type = "quad"
-    material = "white"
-    corner = [-2, -2, 10]
-    edge_u = [4, 0, 0]
-    edge_v = [0, 4, 0]
-    [[object]]
-    name = "ball"
-    type = "sphere"
-    material = "white"
-    center = [-0.5, 0, 0]
-    radius = 0.3
-"#
-        )
-    };
-    let paths = |text: String| Plan::new(&world(&text)).global_paths[1];
-    let (unseen, seen) = (paths(text("")), paths(text(mirror)));
+fn surfaces_in_a_mirror_are_in_view() {
+    // Behind the camera a screen with a lamp on its far side: only the mirror shows it.
+    let lamp = "[[light]]\nname = \"behind\"\ntype = \"quad\"\ncorner = [-1, 0, 8]\nedge_u = [2, 0, 0]\nedge_v = [0, 1, 0]\n\
+                radiance = [1, 1, 1]\n";
+    let screen = quad("screen", [[-2.0, -2.0, 10.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], "grey");
+    let ball = ball("ball", -0.5, 0.3, "grey");
+    let mirror = sphere("mirror", [1.0, 0.0, 0.0], 0.5, "mirror");
+    let paths = |mirror: &str| Plan::new(&world(&[&head(), lamp, &screen, &ball, mirror].concat())).global_paths[1];
+    let (unseen, seen) = (paths(""), paths(&mirror));
     assert!(seen > 2 * unseen, "{seen} {unseen}");
 }

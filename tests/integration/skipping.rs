@@ -1,6 +1,6 @@
 //! What a scene does not need is not done: the counters of whole iterations.
 
-use crate::support::{HEAD, ball, floor, session_of_seed};
+use crate::support::{ball, floor, head, session_of_seed};
 use patchlight::engine::Counters;
 
 const ITERATIONS: u64 = 6;
@@ -8,7 +8,7 @@ const ITERATIONS: u64 = 6;
 /// What some iterations of a scene with these objects did.
 fn counters(max_bounces: u32, objects: &[String]) -> Counters {
     let film = "[film]\nwidth = 32\nheight = 32\n";
-    let text = format!("{HEAD}{film}{}[render]\nmax_bounces = {max_bounces}\n", objects.concat());
+    let text = format!("{}{film}{}[render]\nmax_bounces = {max_bounces}\n", head(), objects.concat());
     session_of_seed(&text, ITERATIONS, 3).stats().counters
 }
 
@@ -24,7 +24,7 @@ fn textured_floor() -> String {
 
 #[test]
 fn everything_is_done_where_everything_is_needed() {
-    let counters = counters(16, &[textured_floor(), ball("a", -0.7, 0.5, "white"), ball("b", 0.7, 0.5, "mirror")]);
+    let counters = counters(16, &[textured_floor(), ball("a", -0.7, 0.5, "grey"), ball("b", 0.7, 0.5, "mirror")]);
     let Counters { rays, shadow_rays, caustic_paths, global_paths, photons_stored, .. } = counters;
     let Counters { splats, caustic_gathers, global_gathers, map_builds, texture_lookups, dropped_samples, .. } =
         counters;
@@ -39,7 +39,7 @@ fn everything_is_done_where_everything_is_needed() {
 
 #[test]
 fn without_mirrors_and_textures_there_is_one_map_and_nothing_is_looked_up() {
-    let counters = counters(16, &[floor("white"), ball("a", 0.0, 0.5, "white")]);
+    let counters = counters(16, &[floor("grey"), ball("a", 0.0, 0.5, "grey")]);
     let Counters { caustic_paths, splats, caustic_gathers, texture_lookups, map_builds, .. } = counters;
     assert_eq!([caustic_paths, splats, caustic_gathers, texture_lookups], [0; 4]);
     assert_eq!(map_builds, ITERATIONS);
@@ -47,8 +47,8 @@ fn without_mirrors_and_textures_there_is_one_map_and_nothing_is_looked_up() {
 
 #[test]
 fn direct_light_alone_takes_no_photons() {
-    let mirrored = [floor("white"), ball("a", 0.0, 0.5, "white"), ball("b", 1.5, 0.5, "mirror")];
-    let convex = [ball("a", 0.0, 0.5, "white")];
+    let mirrored = [floor("grey"), ball("a", 0.0, 0.5, "grey"), ball("b", 1.5, 0.5, "mirror")];
+    let convex = [ball("a", 0.0, 0.5, "grey")];
     for (max_bounces, objects) in [(1, mirrored.as_slice()), (16, &convex)] {
         let counters = counters(max_bounces, objects);
         let Counters { rays, shadow_rays, .. } = counters;

@@ -12,40 +12,24 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::process::{Command, Output};
 
-pub(crate) const HEAD: &str = r#"
-    [camera]
-    position = [0, 0, 4]
-    target = [0, 0, 0]
-    fov_y = 40
-    [[material]]
-    name = "white"
-    type = "diffuse"
-    albedo = [0.5, 0.5, 0.5]
-    [[material]]
-    name = "black"
-    type = "diffuse"
-    albedo = [0, 0, 0]
-    [[material]]
-    name = "mirror"
-    type = "mirror"
-    reflectance = [1, 1, 1]
-    [[light]]
-    name = "lamp"
-    type = "point"
-    position = [0, 3, 0]
-    intensity = [1, 1, 1]
-"#;
+#[path = "../shared/scene_text.rs"]
+mod scene_text;
 
-pub(crate) fn ball(name: &str, x: f64, radius: f64, material: &str) -> String {
-    format!(
-        "[[object]]\nname = \"{name}\"\ntype = \"sphere\"\ncenter = [{x}, 0, 0]\nradius = {radius}\nmaterial = \"{material}\"\n"
-    )
+pub(crate) use scene_text::{lamp, object, quad, sphere};
+
+/// The text of a camera, a lamp above it and the materials white, grey, black and mirror.
+pub(crate) fn head() -> String {
+    scene_text::HEAD.to_owned() + &lamp([0.0, 3.0, 0.0])
 }
 
+/// The text of a sphere whose centre is on the x axis.
+pub(crate) fn ball(name: &str, x: f64, radius: f64, material: &str) -> String {
+    sphere(name, [x, 0.0, 0.0], radius, material)
+}
+
+/// The text of the plane y = -1.
 pub(crate) fn floor(material: &str) -> String {
-    format!(
-        "[[object]]\nname = \"floor\"\ntype = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\nmaterial = \"{material}\"\n"
-    )
+    object("floor", "plane", material, "point = [0, -1, 0]\nnormal = [0, 1, 0]")
 }
 
 /// The scene of a text without its `version`.
@@ -58,17 +42,17 @@ pub(crate) fn world(text: &str) -> World {
     prepare(&scene(text).scene, &Location::Unsaved, None).expect("the scene can be prepared")
 }
 
-/// A session with seed 1 after so many iterations of a scene's text.
+/// A session with seed 1 after the given number of iterations of a scene's text.
 pub(crate) fn session(text: &str, iterations: u64) -> Session {
     session_of_seed(text, iterations, 1)
 }
 
-/// A session with this seed after so many iterations of a scene's text.
+/// A session with this seed after the given number of iterations of a scene's text.
 pub(crate) fn session_of_seed(text: &str, iterations: u64, seed: u64) -> Session {
     advanced(Session::prepare(&scene(text), seed, None).expect("the scene can be prepared"), iterations)
 }
 
-/// A session after so many iterations.
+/// The session after its iteration of this number.
 pub(crate) fn advanced(mut session: Session, iterations: u64) -> Session {
     while session.iterations() < iterations {
         session.advance(Cancel::NEVER).expect("never cancelled");
@@ -76,7 +60,7 @@ pub(crate) fn advanced(mut session: Session, iterations: u64) -> Session {
     session
 }
 
-/// The picture of a scene's text after so many iterations with seed 1.
+/// The picture of a scene's text after the given number of iterations with seed 1.
 pub(crate) fn render(text: &str, iterations: u64) -> LinearImage {
     session(text, iterations).film().image()
 }
