@@ -136,7 +136,7 @@ fn lights() {
         let Emitter::Point { intensity, .. } = lamp.emitter else { continue };
         file.scene.lights = (0..count)
             .map(|k| {
-                let mut s = Sampler::new(1, Stream::Test, 0, k);
+                let mut s = Sampler::new(1, Stream::Camera, 0, k);
                 let position = DVec3::new(1.8 * s.next_1d() - 0.9, 0.9 * s.next_1d(), 1.8 * s.next_1d() - 0.9);
                 let emitter = Emitter::Point { position, intensity: intensity / count as f32 };
                 Light { name: format!("lamp {k}"), emitter }

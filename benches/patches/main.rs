@@ -45,7 +45,7 @@ fn incoherent(nets: &[ControlNet]) -> Vec<Ray> {
     let bounds = bounds(nets);
     (0..RAYS as u64)
         .map(|index| {
-            let mut sampler = Sampler::new(3, Stream::Test, 0, index);
+            let mut sampler = Sampler::new(3, Stream::Camera, 0, index);
             let net = &nets[(sampler.next_1d() * nets.len() as f64) as usize];
             let DVec2 { x: u, y: v } = sampler.next_2d();
             let from = bounds.center() + bounds.diagonal() * warp::uniform_sphere(sampler.next_2d());

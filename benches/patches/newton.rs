@@ -22,7 +22,7 @@ impl NewtonPatch {
     }
 
     fn root_from(&self, ray: &Ray, start: u64) -> Option<f64> {
-        let mut sampler = Sampler::new(ray.direction.x.to_bits(), Stream::Test, 0, start);
+        let mut sampler = Sampler::new(ray.direction.x.to_bits(), Stream::Camera, 0, start);
         let mut x = DVec3::new(sampler.next_1d(), sampler.next_1d(), 1.0);
         for _ in 0..STEPS {
             let (position, dpdu, dpdv) = evaluate(&self.net, x.x, x.y);

@@ -39,7 +39,7 @@ fn room() -> Aggregate {
 fn incoherent() -> Vec<Ray> {
     (0..RAYS as u64)
         .map(|index| {
-            let mut s = Sampler::new(3, Stream::Test, 0, index);
+            let mut s = Sampler::new(3, Stream::Camera, 0, index);
             let origin = DVec3::new(s.next_1d(), s.next_1d(), s.next_1d()) * 1.9 - 0.95;
             Ray::new(origin, warp::uniform_sphere(s.next_2d()))
         })

@@ -204,7 +204,7 @@ mod tests {
     const PIXELS: u64 = (SIDE * SIDE) as u64;
 
     fn value(iteration: u64, pixel: u64) -> Rgb {
-        Rgb::splat(Sampler::new(1, Stream::Test, iteration, pixel).next_1d() as f32)
+        Rgb::splat(Sampler::new(1, Stream::Camera, iteration, pixel).next_1d() as f32)
     }
 
     fn noise(iteration: u64) -> Vec<Rgb> {
@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn stratified_samples_of_edges_estimate_their_error() {
         let mut film = FilmSums::new(SIDE, SIDE);
-        let edge = |pixel| Sampler::new(1, Stream::Test, 0, pixel).next_1d();
+        let edge = |pixel| Sampler::new(1, Stream::Probe, 0, pixel).next_1d();
         let lit = |pixel, index| {
             let place = Sampler::new(1, Stream::Camera, pixel, index).next_2d();
             Rgb::splat(if 0.8 * place.x + 0.2 * place.y < edge(pixel) { 1.0 } else { 0.0 })

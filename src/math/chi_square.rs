@@ -37,7 +37,7 @@ fn p_value_of_sampler(mut sample: impl FnMut(&mut Sampler) -> Option<DVec2>, den
     let bins = SIDE * SIDE;
     let mut counts = vec![0; bins + 1];
     for draw in 0..DRAWS {
-        let bin = sample(&mut Sampler::new(11, Stream::Test, draw, 0)).map_or(bins, |p| {
+        let bin = sample(&mut Sampler::new(11, Stream::Camera, draw, 0)).map_or(bins, |p| {
             let index = |x: f64| ((x * SIDE as f64) as usize).min(SIDE - 1);
             index(p.y) * SIDE + index(p.x)
         });

@@ -21,8 +21,6 @@ pub enum Stream {
     GatheringSample,
     /// Direction of a visibility polygon's first corner, one sequence per pixel, one index per iteration.
     VisibilityPolygon,
-    /// Random numbers of tests.
-    Test,
     /// The stream with this number in draft frames, whose numbers are independent of the converging picture.
     Draft(u8),
 }
@@ -35,7 +33,6 @@ impl Stream {
             Self::CausticPhoton => 2,
             Self::GlobalPhoton => 3,
             Self::Probe => 4,
-            Self::Test => 5,
             Self::GatheringSample => 6,
             Self::VisibilityPolygon => 7,
             Self::Draft(number) => 0x80 | number,
@@ -201,7 +198,7 @@ mod tests {
             let mut cells = [false; 256];
             let mut intervals = [[false; 256]; 4];
             for k in 0..256 {
-                let mut sampler = Sampler::new(7, Stream::Test, 3, block * 256 + k);
+                let mut sampler = Sampler::new(7, Stream::Camera, 3, block * 256 + k);
                 let x: Vec<f64> = (0..4).map(|_| sampler.next_1d()).collect();
                 for (hit, x) in intervals.iter_mut().zip(&x) {
                     assert!(!std::mem::replace(&mut hit[(x * 256.0) as usize], true), "an interval is hit once");
@@ -217,9 +214,9 @@ mod tests {
         let pairs = 4096;
         let mut covariance = [0.0; 3];
         for k in 0..pairs {
-            let mut a = Sampler::new(1, Stream::Test, 0, k);
-            let mut b = Sampler::new(1, Stream::Test, 1, k);
-            let mut c = Sampler::new(1, Stream::Test, 0, k + (1 << 32));
+            let mut a = Sampler::new(1, Stream::Camera, 0, k);
+            let mut b = Sampler::new(1, Stream::Camera, 1, k);
+            let mut c = Sampler::new(1, Stream::Camera, 0, k + (1 << 32));
             let first = a.next_1d() - 0.5;
             covariance[0] += first * (b.next_1d() - 0.5);
             covariance[1] += first * (c.next_1d() - 0.5);

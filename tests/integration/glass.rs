@@ -39,7 +39,7 @@ struct Tally {
 /// Follows one photon from outside: it is reflected or refracted with the same chance, and must be outside again at the
 /// end, or have met every surface from the side on which it is.
 fn follow(body: &Aggregate, index: u64) -> Tally {
-    let mut sampler = Sampler::new(5, Stream::Test, 0, index);
+    let mut sampler = Sampler::new(5, Stream::Camera, 0, index);
     let from = 4.0 * warp::uniform_sphere(sampler.next_2d());
     let to = warp::uniform_sphere(sampler.next_2d()) * 1.2;
     let mut ray = Ray::new(from, to - from);

@@ -43,7 +43,7 @@ fn walls_are_beside_a_floor_and_objects_on_it_are_not() {
 
 /// A point of the unit cube.
 fn unit(k: u64) -> DVec3 {
-    let mut s = Sampler::new(4, Stream::Test, 9, k);
+    let mut s = Sampler::new(4, Stream::Camera, 9, k);
     DVec3::new(s.next_1d(), s.next_1d(), s.next_1d())
 }
 

@@ -178,7 +178,7 @@ mod tests {
     fn random_boxes(count: u64, scale: f64, size: f64) -> Vec<Aabb> {
         (0..count)
             .map(|k| {
-                let mut s = Sampler::new(3, Stream::Test, 9, k);
+                let mut s = Sampler::new(3, Stream::Camera, 9, k);
                 let p = scale * DVec3::new(s.next_1d(), s.next_1d(), s.next_1d());
                 let q = p + scale * size * DVec3::new(s.next_1d(), s.next_1d(), s.next_1d());
                 Aabb { min: p, max: q }
@@ -197,7 +197,7 @@ mod tests {
             let boxes = random_boxes(count, scale, size);
             let bvh = Bvh::build(&boxes);
             for k in 0..200 {
-                let mut s = Sampler::new(4, Stream::Test, count, k);
+                let mut s = Sampler::new(4, Stream::Camera, count, k);
                 let origin = scale * (3.0 * warp::uniform_sphere(s.next_2d()) + 0.5);
                 let target = boxes[(s.next_1d() * count as f64) as usize].center();
                 let ray = Ray::new(origin, target - origin);

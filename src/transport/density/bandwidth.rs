@@ -312,7 +312,7 @@ mod tests {
     fn measured(n: u64, mean: f64, deviation: f64) -> BandwidthDifferences {
         let mut differences = BandwidthDifferences::new(SIZE, SIZE);
         for iteration in 8..8 + n {
-            let noise = |pixel| Sampler::new(1, Stream::Test, pixel, iteration).next_1d() - 0.5;
+            let noise = |pixel| Sampler::new(1, Stream::Camera, pixel, iteration).next_1d() - 0.5;
             let difference = |pixel| mean + deviation * 12f64.sqrt() * noise(pixel);
             let all: Vec<BandwidthDifference> = (0..u64::from(SIZE * SIZE))
                 .map(|pixel| difference(pixel) as f32)
@@ -380,7 +380,7 @@ mod tests {
             _ => 0.0,
         };
         for iteration in 9..=16 {
-            let noise = |pixel| Sampler::new(1, Stream::Test, u64::from(pixel), iteration).next_1d() as f32 - 0.5;
+            let noise = |pixel| Sampler::new(1, Stream::Camera, u64::from(pixel), iteration).next_1d() as f32 - 0.5;
             let all = (0..SIZE * SIZE).map(|pixel| {
                 let x = difference(pixel) + noise(pixel);
                 BandwidthDifference { maps: PerMap::from_fn(|_| x), caustic_noise: 1.0 / 12.0, picture: x }

@@ -194,7 +194,7 @@ mod tests {
     fn a_quad_does_not_shine_backwards() {
         let quad = Quad::new(DVec3::new(-0.5, 1.0, -0.5), DVec3::Z, DVec3::X);
         let light = Light::Quad { quad, radiance: Rgb::ONE };
-        let mut sampler = Sampler::new(1, Stream::Test, 0, 0);
+        let mut sampler = Sampler::new(1, Stream::Camera, 0, 0);
         assert!(
             quad.normal().y > 0.0 && sample_light(&testing::world(""), &light, DVec3::ZERO, &mut sampler).is_none()
         );

@@ -173,7 +173,7 @@ mod tests {
 
     fn lights(count: u64) -> Vec<Light> {
         let light = |k: u64| {
-            let mut s = Sampler::new(3, Stream::Test, 1, k);
+            let mut s = Sampler::new(3, Stream::Camera, 1, k);
             let position = (0.2 + 5.0 * s.next_1d()) * warp::uniform_sphere(s.next_2d());
             let strength = Rgb::splat(s.next_1d().powi(4) as f32 + 1e-3);
             match k % 3 {
@@ -228,7 +228,7 @@ mod tests {
         let rounds = 50_000;
         let mut counts = vec![0; lights.len()];
         for round in 0..rounds {
-            let mut numbers = Sampler::new(3, Stream::Test, 2, round << 32);
+            let mut numbers = Sampler::new(3, Stream::Camera, 2, round << 32);
             let mut draws = Vec::new();
             sampler.sample(&vertex, numbers.next_1d(), |light, weight| draws.push((light, weight)));
             let (light, weight) = draws[(numbers.next_1d() * draws.len() as f64) as usize];

@@ -236,7 +236,7 @@ mod tests {
         ));
         let mut tracer = GlobalPhotonTracer::new(&world, None);
         for index in 0..PATHS {
-            tracer.trace(0, PATHS, Sampler::new(4, Stream::Test, 0, index));
+            tracer.trace(0, PATHS, Sampler::new(4, Stream::Camera, 0, index));
         }
         tracer.stored
     }
@@ -285,10 +285,10 @@ mod tests {
     #[test]
     fn paths_arrive_where_light_comes_first() {
         let world = testing::world(&[sphere("room", [0.0; 3], 2.0, "black"), lamp([0.0; 3])].concat());
-        let arrivals = arrivals_of_path(&world, 0, Sampler::new(4, Stream::Test, 0, 0));
+        let arrivals = arrivals_of_path(&world, 0, Sampler::new(4, Stream::Camera, 0, 0));
         assert!(arrivals.is_empty(), "a black room stores nothing");
         let world = testing::world(&[sphere("room", [0.0; 3], 2.0, "grey"), lamp([0.0; 3])].concat());
-        let arrivals = arrivals_of_path(&world, 0, Sampler::new(4, Stream::Test, 0, 0));
+        let arrivals = arrivals_of_path(&world, 0, Sampler::new(4, Stream::Camera, 0, 0));
         let distance = arrivals.first().expect("the first arrival counts, too").length();
         assert!(distance < 2.0 && distance > 2.0 - 1e-4, "a little in front of the wall: {distance}");
     }

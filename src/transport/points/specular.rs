@@ -188,13 +188,13 @@ mod tests {
     fn roulette_keeps_the_mean() {
         for strength in [1e-3f32, 0.2, 0.7, 1.0, 3.0] {
             let n = 1 << 14;
-            let kept = |k| roulette(strength, 1.0, &mut Sampler::new(2, Stream::Test, 0, k)).map(|p| strength / p);
+            let kept = |k| roulette(strength, 1.0, &mut Sampler::new(2, Stream::Camera, 0, k)).map(|p| strength / p);
             let mean = (0..n).filter_map(kept).map(f64::from).sum::<f64>() / n as f64;
             // The sequence is stratified: the number of survivors is exact to one.
             assert!((mean - f64::from(strength)).abs() < 2.0 / n as f64 + 1e-6, "{mean} instead of {strength}");
         }
         assert!(
-            roulette(f32::NAN, 1.0, &mut Sampler::new(2, Stream::Test, 0, 0)) == Some(1.0),
+            roulette(f32::NAN, 1.0, &mut Sampler::new(2, Stream::Camera, 0, 0)) == Some(1.0),
             "for the film to count"
         );
     }

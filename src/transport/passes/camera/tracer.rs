@@ -273,7 +273,7 @@ mod tests {
         let mut pixel = Pixel::new();
         let ray = Ray::new(DVec3::new(0.1, 0.0, 4.0), DVec3::NEG_Z);
         let hit = world.aggregate.closest_hit(&ray);
-        let radiance = tracer.trace(&mut pixel, ray, hit, 0.5, &mut Sampler::new(1, Stream::Test, 0, 0));
+        let radiance = tracer.trace(&mut pixel, ray, hit, 0.5, &mut Sampler::new(1, Stream::Camera, 0, 0));
         (radiance, tracer.batch)
     }
 

@@ -9,7 +9,7 @@ use glam::Vec3;
 fn photons(count: u64, place: impl Fn(&mut Sampler) -> Vec3) -> Vec<Photon> {
     (0..count)
         .map(|k| {
-            let mut s = Sampler::new(1, Stream::Test, 77, k);
+            let mut s = Sampler::new(1, Stream::Camera, 77, k);
             let position = place(&mut s);
             let flux = Rgb::new(1.0, s.next_1d() as f32, 0.5);
             let wi = Vec3::new(s.next_1d() as f32 - 0.5, 1.0, 0.3).normalize();
@@ -53,7 +53,7 @@ fn check_sums<L: Lanes>(l: L) {
         let in_one_place = photons.iter().all(|p| p.position == photons[0].position);
         assert!(most <= LEAF_SIZE / LANES || in_one_place, "{most} blocks in a leaf");
         for k in 0..50 {
-            let mut s = Sampler::new(2, Stream::Test, 5, k);
+            let mut s = Sampler::new(2, Stream::Camera, 5, k);
             let position = place(&mut s);
             let radius = 0.3 * s.next_1d() as f32;
             for (tag_start, tag_span) in [(1, 2), (0, 3)] {
