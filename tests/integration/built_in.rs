@@ -1,65 +1,34 @@
-//! The pictures of the built-in scenes, against stored references and against what must hold in them.
+//! The pictures of the built-in scenes, against stored references and by their lamps, colours and caustics.
 
-use crate::support::advanced;
 use glam::{DVec3, Vec3};
-use patchlight::engine::Session;
 use patchlight::film::LinearImage;
-use patchlight::scene::{SceneFile, built_in_scenes};
+use patchlight::scene::built_in_scenes;
 use patchlight::transport::Component;
 use patchlight::world::Camera;
 
-/// Pixels along a side of the rendered pictures.
-const SIDE: u32 = 64;
-/// Blocks along a side; the references hold the mean of each.
-const BLOCKS: usize = 4;
-/// A line for each scene: its name, and the three channels of each block, row by row from the top. The test
-/// `print_block_means` computes them.
+#[path = "../shared/block_means.rs"]
+mod block_means;
+
+use block_means::{SIDE, block_means, rendered, small};
+
+/// A line for each scene: its name, and the three channels of each block, row by row from the top. The example
+/// `make_references` writes the file.
 const REFERENCES: &str = include_str!("../data/built-in.txt");
-
-fn rendered(name: &str, only: Option<Component>, iterations: u64, seed: u64) -> (LinearImage, Camera) {
-    let mut file = SceneFile::built_in(name).expect("a built-in scene");
-    (file.scene.film.width, file.scene.film.height) = (SIDE, SIDE);
-    let camera = Camera::new(&file.scene.camera, SIDE, SIDE);
-    let session = Session::prepare(&file, seed, None).expect("the scene can be prepared").only(only);
-    (advanced(session, iterations).film().image(), camera)
-}
-
-fn block_means(image: &LinearImage) -> Vec<Vec3> {
-    let side = SIDE as usize / BLOCKS;
-    let pixels = |block: usize| {
-        let (row, column) = (block / BLOCKS * side, block % BLOCKS * side);
-        (0..side * side).map(move |k| (row + k / side) * SIDE as usize + column + k % side)
-    };
-    let mean = |block| pixels(block).map(|k| image.pixels[k]).sum::<Vec3>() / (side * side) as f32;
-    (0..BLOCKS * BLOCKS).map(mean).collect()
-}
 
 /// Greatest error of a block over its radiance plus a tenth of the picture's mean. The worst of the 336 numbers is off by 0.024, about
 /// three standard errors; the tolerance is six.
 const TOLERANCE: f32 = 0.05;
 
-/// Computes the references: 512 iterations of another seed than the tests use.
-#[test]
-#[ignore = "prints the lines of tests/data/built-in.txt, for scenes that changed"]
-#[allow(clippy::print_stdout, reason = "its output is the file")]
-fn print_block_means() {
-    for scene in built_in_scenes() {
-        let means = block_means(&rendered(scene.name, None, 512, 77).0);
-        let words = means.iter().flat_map(|mean| mean.to_array()).map(|x| format!("{x:.6}"));
-        println!("{} {}", scene.name, words.collect::<Vec<_>>().join(" "));
-    }
-}
-
 /// Blocks of 256 pixels after 16 iterations, of which each has 16,384 paths or more.
 #[test]
-fn pictures_are_those_of_the_references() {
+fn pictures_agree_with_the_references() {
     assert_eq!(REFERENCES.lines().count(), built_in_scenes().len());
     let mut worst = Vec::new();
     for (line, scene) in REFERENCES.lines().zip(built_in_scenes()) {
         let (name, numbers) = line.split_once(' ').expect("a name and numbers");
         assert_eq!(name, scene.name);
         let numbers: Vec<f32> = numbers.split(' ').map(|word| word.parse().expect("a number")).collect();
-        let (image, _) = rendered(name, None, 16, 1);
+        let image = rendered(&small(name), None, 16, 1);
         assert!(image.pixels.iter().all(|pixel| pixel.is_finite() && pixel.min_element() >= 0.0), "{name}");
         let mean = numbers.iter().sum::<f32>() / numbers.len() as f32;
         let found: Vec<f32> = block_means(&image).iter().flat_map(|mean| mean.to_array()).collect();
@@ -69,6 +38,12 @@ fn pictures_are_those_of_the_references() {
         worst.push((name, error));
     }
     assert!(worst.iter().all(|(_, error)| *error < TOLERANCE), "{worst:?}");
+}
+
+/// A picture and its camera.
+fn seen(name: &str, only: Option<Component>, iterations: u64) -> (LinearImage, Camera) {
+    let file = small(name);
+    (rendered(&file, only, iterations, 1), Camera::new(&file.scene.camera, SIDE, SIDE))
 }
 
 fn pixel(image: &LinearImage, camera: &Camera, point: DVec3) -> Vec3 {
@@ -84,7 +59,7 @@ fn around(image: &LinearImage, camera: &Camera, point: DVec3) -> f32 {
 
 #[test]
 fn the_box_shows_its_lamp_and_bleeds_its_colours() {
-    let (image, camera) = rendered("cornell", None, 8, 1);
+    let (image, camera) = seen("cornell", None, 8);
     let lamp = pixel(&image, &camera, DVec3::new(0.0, 0.998, 0.0));
     assert!((lamp - Vec3::new(15.0, 13.0, 10.0)).length() < 1e-3, "the lamp's own radiance: {lamp}");
     // Grey walls beside coloured ones: the floor's left is redder than its right.
@@ -98,13 +73,13 @@ fn the_box_shows_its_lamp_and_bleeds_its_colours() {
 /// The cusp of the cardioid lies a third of the radius beyond the middle of the mirror's circle, which has the radius 0.8.
 #[test]
 fn caustics_are_brighter_than_their_surroundings() {
-    let (image, camera) = rendered("cardioid", Some(Component::Caustics), 16, 1);
+    let (image, camera) = seen("cardioid", Some(Component::Caustics), 16);
     let at = |x, z| around(&image, &camera, DVec3::new(x, 0.001, z));
     let cusp = at(0.0, -0.8 / 3.0);
     let (inside, before) = (at(0.0, -0.6), at(0.0, 0.3));
     assert!(cusp > 2.0 * inside && cusp > 5.0 * before, "cusp {cusp}, beyond it {inside}, before it {before}");
     for name in ["lens", "water", "report"] {
-        let (image, _) = rendered(name, Some(Component::Caustics), 16, 1);
+        let image = rendered(&small(name), Some(Component::Caustics), 16, 1);
         let mut values: Vec<f32> = image.pixels.iter().map(|pixel| pixel.element_sum()).collect();
         values.sort_by(f32::total_cmp);
         let (median, bright) = (values[values.len() / 2], values[values.len() * 49 / 50]);
