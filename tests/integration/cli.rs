@@ -1,6 +1,11 @@
 //! The program as people and scripts call it.
 
-use crate::support::patchlight;
+use crate::support::{advanced, patchlight};
+use patchlight::{
+    engine::Session,
+    film::ToneMap,
+    scene::{SceneFile, built_in_scenes},
+};
 use std::{
     fs,
     path::Path,
@@ -174,13 +179,28 @@ fn of_very_many_mistakes_some_are_listed() {
     fails(&output, 2, &["bad.toml:26:1: light[1]: the key `type` is missing", "bad.toml: and 30 more"]);
 }
 
+/// One iteration of a built-in scene with seed 0, as 8-bit sRGB.
+fn displayed(name: &str, (width, height): (u32, u32)) -> Vec<u8> {
+    let mut file = SceneFile::built_in(name).unwrap();
+    (file.scene.film.width, file.scene.film.height) = (width, height);
+    let image = advanced(Session::prepare(&file, 0, None).unwrap(), 1).film().image();
+    ToneMap::new(file.scene.film.exposure, file.scene.film.tone_curve).map_image(&image).into_flattened()
+}
+
 #[test]
-fn every_built_in_scene_renders_from_anywhere() {
+fn built_in_scenes_render_in_any_folder() {
     let dir = folder();
-    for scene in patchlight::scene::built_in_scenes() {
-        let run = ["render", scene.name, "-o", "a.png", "--iterations", "1", "--size", "24x24"];
+    let size = (32, 24);
+    for scene in built_in_scenes() {
+        let run = ["render", scene.name, "-o", "a.png", "--iterations", "1", "--size", "32x24"];
         let output = patchlight(dir.path(), &run);
         assert!(output.status.success(), "{}: {}", scene.name, stderr(&output));
+        assert!(stderr(&output).contains("a.png: 1 iteration in "), "{}", stderr(&output));
+        let picture = image::open(dir.path().join("a.png")).unwrap().into_rgb8();
+        assert_eq!(picture.dimensions(), size, "{}", scene.name);
+        let lit = picture.pixels().filter(|pixel| pixel.0.into_iter().max() > Some(32)).count();
+        assert!(2 * lit > 32 * 24, "{}: {lit} pixels are lit", scene.name);
+        assert!(picture.into_raw() == displayed(scene.name, size), "{}: the library renders other pixels", scene.name);
     }
 }
 
