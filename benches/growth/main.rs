@@ -3,7 +3,7 @@
 //! A cost is the least time of the first iteration of full size and of later ones.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
-#![allow(clippy::print_stdout, reason = "the tables are what it is for")]
+#![allow(clippy::print_stdout, reason = "the tables are its output")]
 
 use glam::DVec3;
 use patchlight::engine::Session;
@@ -62,13 +62,13 @@ fn cost(file: &SceneFile, whole_iterations: usize) -> Cost {
     Cost { prepare, iteration, megabytes: peak_megabytes() }
 }
 
-fn head(what: &str) {
-    println!("\n| {what} | prepared in | seconds for an iteration | memory |\n|--:|--:|--:|--:|");
+fn head(quantity: &str) {
+    println!("\n| {quantity} | prepared in | seconds for an iteration | memory |\n|--:|--:|--:|--:|");
 }
 
-fn row(what: impl std::fmt::Display, cost: &Cost) {
+fn row(value: impl std::fmt::Display, cost: &Cost) {
     let memory = cost.megabytes.map_or("unknown".to_owned(), |megabytes| format!("{megabytes} MB"));
-    println!("| {what} | {:.3} s | {:.3} | {memory} |", cost.prepare, cost.iteration);
+    println!("| {value} | {:.3} s | {:.3} | {memory} |", cost.prepare, cost.iteration);
 }
 
 fn sized(mut file: SceneFile, side: u32) -> SceneFile {
@@ -104,9 +104,9 @@ fn patches() {
             let (min, max) =
                 corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)));
             let scale = 1.0 / f64::from(side);
-            let places = (0..side * side).map(|k| DVec3::new(f64::from(k % side), f64::from(k / side), 0.0) * scale);
-            let copies = places.flat_map(|place| {
-                bezier.patches.iter().map(move |net| net.map(|p| min + scale * (p - min) + place * (max - min)))
+            let cells = (0..side * side).map(|k| DVec3::new(f64::from(k % side), f64::from(k / side), 0.0) * scale);
+            let copies = cells.flat_map(|cell| {
+                bezier.patches.iter().map(move |net| net.map(|p| min + scale * (p - min) + cell * (max - min)))
             });
             bezier.patches = Arc::new(copies.collect());
             bezier.file = None;
@@ -161,7 +161,7 @@ fn photons() {
         "\n| paths for interreflection | photons | photon pass, s | map, s | gather, s | map's memory |\n|--:|--:|--:|--:|--:|--:|"
     );
     let file = balls();
-    let world = prepare(&file.scene, &file.location, None).expect("the scene is whole");
+    let world = prepare(&file.scene, &file.location, None).expect("the scene can be prepared");
     let mut plan = Plan::new(&world);
     const ITERATION: u64 = SMALL_ITERATIONS + 1;
     let bands = plan.bands(ITERATION).into_par_iter();

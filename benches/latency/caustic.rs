@@ -10,10 +10,10 @@ use patchlight::transport::{Cancel, Component};
 
 /// Iterations of the converged picture.
 const ITERATIONS: u64 = 8;
-/// A pixel belongs to the caustic when mirrors and glass bring more than this share of its light. A lower share would take in
+/// A pixel belongs to the caustic when mirrors and glass bring more than this fraction of its light. A lower fraction would take in
 /// most pixels, since a polished wall reflects a little light everywhere; textures and shadows, which pictures without a caustic
 /// show as well, would then dominate the correlation.
-const SHARE: f32 = 0.3;
+const FRACTION: f32 = 0.3;
 
 /// The converged picture of a scene and the pixels of its caustic.
 pub(crate) struct Caustic {
@@ -28,8 +28,8 @@ impl Caustic {
         let whole = picture(file, None);
         let caustics = picture(file, Some(Component::Caustics));
         let pairs = whole.pixels.iter().zip(&caustics.pixels);
-        let region = pairs.clone().map(|(all, part)| sum(*part) > SHARE * sum(*all)).collect();
-        let rest = pairs.map(|(all, part)| *all - *part).collect();
+        let region = pairs.clone().map(|(all, caustics)| sum(*caustics) > FRACTION * sum(*all)).collect();
+        let rest = pairs.map(|(all, caustics)| *all - *caustics).collect();
         let shows = ToneMap::new(file.scene.film.exposure, file.scene.film.tone_curve);
         Self {
             converged: grayscale(&shown(&whole, &shows)),

@@ -54,8 +54,8 @@ fn wait(
     }
 }
 
-fn milliseconds(sorted: &[Duration], part: f64) -> f64 {
-    1e3 * sorted[((sorted.len() - 1) as f64 * part).round() as usize].as_secs_f64()
+fn milliseconds(sorted: &[Duration], quantile: f64) -> f64 {
+    1e3 * sorted[((sorted.len() - 1) as f64 * quantile).round() as usize].as_secs_f64()
 }
 
 fn main() {

@@ -1,6 +1,6 @@
 //! Rays against Bezier patches: our intersector, a Newton iteration from random starts, and triangles in a tree of the same type.
 //!
-//! Incoherent rays come from all directions and aim at points of the surface; coherent rays are those of a camera.
+//! Incoherent rays come from all directions and aim at points of the surface; a camera casts coherent rays.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
 
@@ -57,13 +57,13 @@ fn incoherent(nets: &[ControlNet]) -> Vec<Ray> {
 /// Rays of a camera with 1024 x 1024 pixels through the middle of the film, row by row, which see the surface.
 fn coherent(nets: &[ControlNet], aggregate: &Aggregate) -> Vec<Ray> {
     let bounds = bounds(nets);
-    let eye = bounds.center() + bounds.diagonal() * DVec3::new(0.5, -1.1, 0.8);
-    let right = (bounds.center() - eye).cross(DVec3::Z).normalize();
-    let up = right.cross(bounds.center() - eye).normalize();
+    let origin = bounds.center() + bounds.diagonal() * DVec3::new(0.5, -1.1, 0.8);
+    let right = (bounds.center() - origin).cross(DVec3::Z).normalize();
+    let up = right.cross(bounds.center() - origin).normalize();
     let side = 1024;
     let rays = (0..side * side).map(|k| {
         let film = DVec2::new((k % side) as f64, (k / side) as f64) / side as f64 - 0.5;
-        Ray::new(eye, bounds.center() + bounds.diagonal() * (film.x * right + film.y * up) - eye)
+        Ray::new(origin, bounds.center() + bounds.diagonal() * (film.x * right + film.y * up) - origin)
     });
     let seen: Vec<Ray> = rays.filter(|ray| aggregate.closest_hit(ray).is_some()).collect();
     let count = 16 * RAYS;

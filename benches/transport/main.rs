@@ -1,4 +1,4 @@
-//! The speed of the parts of an iteration: rays in a room, the photon map, photon passes and the camera pass.
+//! The speed of the stages of an iteration: rays in a room, the photon map, photon passes and the camera pass.
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
 

@@ -21,9 +21,9 @@ pub(crate) fn color(p: DVec2) -> DVec3 {
     let here = scaled.floor().as_ivec2();
     for layer in [leaf, bud, flower] {
         for neighbour in 0..9 {
-            let place = here + IVec2::new(neighbour % 3 - 1, neighbour / 3 - 1);
-            let id = place.rem_euclid(IVec2::splat(CELLS));
-            layer(scaled - place.as_dvec2(), id, &mut paint);
+            let cell = here + IVec2::new(neighbour % 3 - 1, neighbour / 3 - 1);
+            let id = cell.rem_euclid(IVec2::splat(CELLS));
+            layer(scaled - cell.as_dvec2(), id, &mut paint);
         }
     }
     paint

@@ -1,4 +1,4 @@
-//! A floor of oak planks, eight across, their ends at random places.
+//! A floor of oak planks, eight across, their ends at random heights.
 
 use crate::{
     canvas::{hex, smoothstep},

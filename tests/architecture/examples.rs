@@ -1,4 +1,4 @@
-//! The rules on small crates, made up so that the rules themselves are tested.
+//! Tests of the rules on small made-up crates.
 
 use crate::modules::{Modules, Segments};
 use crate::resolve::Target;
@@ -128,7 +128,7 @@ fn a_folder_that_uses_its_own_files_makes_a_circle_with_them() {
 }
 
 #[test]
-fn tables_list_every_file_and_no_other() {
+fn tables_list_exactly_the_files() {
     let modules = read(&[
         (
             "src/lib.rs",

@@ -1,12 +1,12 @@
 //! The architecture of the crate, checked on its source.
 //!
 //! The tables of files at the beginning of `lib.rs` and of each folder's `mod.rs` say the order: at the root a module, elsewhere a
-//! folder, uses only what stands in rows above its own; names in one row know nothing of each other. Files import each other in no
+//! folder, uses only what stands in rows above its own; names in one row do not import each other. Files import each other in no
 //! circle. Tests and documentation may use anything.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `modules` | what each module defines, imports and mentions |
+//! | `modules` | the names that each module defines, imports and mentions |
 //! | `resolve` | where a path leads: to the file that defines the item |
 //! | `rules` | imports against the order, circles, tables of files |
 //! | `examples` | small crates that keep and break the rules |
@@ -27,23 +27,23 @@ fn this_crate() -> Modules {
 }
 
 #[test]
-fn every_path_leads_somewhere() {
+fn every_path_leads_to_an_item() {
     let (_, lost) = this_crate().uses();
     assert!(
         lost.is_empty(),
-        "This test does not find what these paths name; mend its `resolve.rs`:\n{}",
+        "This test does not find the items of these paths; mend its `resolve.rs`:\n{}",
         lost.join("\n")
     );
 }
 
 #[test]
-fn no_module_uses_one_above_it() {
+fn modules_import_only_modules_of_rows_above_their_own() {
     let modules = this_crate();
     let upward = rules::upward(&modules, &modules.uses().0);
     assert!(
         upward.is_empty(),
-        "These imports go against the order of the tables in lib.rs and mod.rs. Move what they import down to where both may use \
-         it, pass it in as an argument, or, where the table is wrong, mend its order:\n{}",
+        "These imports go against the order of the tables in lib.rs and mod.rs. Move the imported item down to a file that both may use, \
+         pass it in as an argument, or, where the table is wrong, mend its order:\n{}",
         upward.join("\n")
     );
 }
@@ -54,8 +54,8 @@ fn files_import_each_other_in_no_circle() {
     let circles = rules::circles(&modules, &modules.uses().0);
     assert!(
         circles.is_empty(),
-        "These files cannot be read one after the other. Move what one of them imports to a file of its own that all may use, or \
-         pass it in as an argument:\n{}",
+        "These files cannot be read one after the other. Move one of the imported items to a file of its own, or pass it in as an \
+         argument:\n{}",
         circles.join("\n")
     );
 }
@@ -65,7 +65,7 @@ fn every_folder_begins_with_a_table_of_its_files() {
     let wrong = rules::wrong_tables(&this_crate());
     assert!(
         wrong.is_empty(),
-        "Begin each file that declares modules with a table `//! | file | holds |`, one row a file, what others use first:\n{}",
+        "Begin each file that declares modules with a table `//! | file | holds |`, one row a file, the most imported file first:\n{}",
         wrong.join("\n")
     );
 }

@@ -1,4 +1,4 @@
-//! The modules of a crate, read from its source: what each defines, imports and mentions.
+//! The modules of a crate, read from its source: the names that each defines, imports and mentions.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use syn::visit::{self, Visit};
@@ -11,7 +11,7 @@ pub(crate) type Segments = Vec<String>;
 #[derive(Default)]
 pub(crate) struct Modules(pub(crate) BTreeMap<Segments, Module>);
 
-/// What one module holds.
+/// The names in one module.
 pub(crate) struct Module {
     /// The file, from the package's folder. An inline module has the file that it stands in.
     pub(crate) file: String,
@@ -32,7 +32,7 @@ pub(crate) struct Module {
 pub(crate) struct Import {
     /// The name in the importing module; `*` for all names of a module.
     pub(crate) name: String,
-    /// What the name stands for; the module where the name is `*`.
+    /// The path of the imported item; of the module where the name is `*`.
     pub(crate) path: Segments,
     /// Whether other modules may take the name from here: `pub use`.
     pub(crate) is_reexport: bool,
@@ -113,7 +113,7 @@ impl<'ast> Visit<'ast> for Module {
         }
     }
 
-    // `pub(in crate::a)` and `#[a::b]` use nothing of `a`.
+    // `pub(in crate::a)` and `#[a::b]` use no item of `a`.
     fn visit_vis_restricted(&mut self, _: &'ast VisRestricted) {}
     fn visit_attribute(&mut self, _: &'ast Attribute) {}
 }

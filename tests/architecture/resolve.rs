@@ -3,31 +3,31 @@
 use crate::modules::{Module, Modules, Segments, child};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-/// What a path stands for.
+/// The item or module that a path leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Target {
     /// The module of this path.
     Module(Segments),
     /// An item, and the module that defines it.
     Item { module: Segments, name: String },
-    /// Something of another crate, or a local name.
+    /// An item of another crate, or a local name.
     Foreign,
 }
 
-/// That a file uses another one, and what of it.
+/// The names that one file uses of another file.
 #[derive(Default)]
 pub(crate) struct Use {
-    /// The names, where the file only hands them on with `pub use`.
+    /// Names that the file only re-exports with `pub use`.
     pub(crate) reexported: BTreeSet<String>,
-    /// The names, where the file itself uses them.
+    /// Names that the file itself uses.
     pub(crate) used: BTreeSet<String>,
 }
 
-/// What files use of each other, by the modules of the two files: the user first.
+/// The names that files use of each other, by the modules of the importing and the defining file.
 pub(crate) type Uses = BTreeMap<(Segments, Segments), Use>;
 
 impl Modules {
-    /// What a path stands for in a module; `None` where a path within this crate leads nowhere.
+    /// The target of a path in a module; `None` where a path within this crate leads nowhere.
     pub(crate) fn resolve(&self, module: &[String], path: &[String]) -> Option<Target> {
         self.follow(module, path, &mut HashSet::new())
     }
@@ -52,7 +52,7 @@ impl Modules {
         })
     }
 
-    /// What a name stands for in a module.
+    /// The target of a name in a module.
     fn named(&self, path: &[String], name: &str, seen: &mut HashSet<(Segments, Segments)>) -> Option<Target> {
         let module = self.0.get(path)?;
         let inner = child(path, name);
@@ -70,7 +70,7 @@ impl Modules {
         found.iter().find(|target| **target != Target::Foreign).or(found.first()).cloned()
     }
 
-    /// What files use of each other, and the paths that lead nowhere.
+    /// The names that files use of each other, and the paths that lead nowhere.
     pub(crate) fn uses(&self) -> (Uses, Vec<String>) {
         let (mut uses, mut lost) = (Uses::new(), Vec::new());
         for (from, module) in &self.0 {

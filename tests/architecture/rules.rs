@@ -1,4 +1,4 @@
-//! What must hold between the files of the crate, and what to do where it does not.
+//! The rules between files of the crate.
 
 use crate::modules::{Modules, Segments};
 use crate::resolve::Uses;

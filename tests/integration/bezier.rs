@@ -2,7 +2,7 @@
 //! behaved patches, folds, cusps, collapsed edges, slivers, far from the origin, tiny and huge, random, and the teapot.
 //!
 //! A ray is `clear` if the answer is certain with some margin, `seam` if its nearest hit lies on an edge that two patches
-//! share, and `delicate` if any sane answer will do.
+//! have in common, and `delicate` if any finite answer is accepted.
 
 use crate::support::patchlight;
 use glam::{DMat3, DVec3};
@@ -35,7 +35,7 @@ fn numbers(words: &[&str]) -> Option<DVec3> {
     numbers.ok()?.try_into().ok().map(DVec3::from_array)
 }
 
-/// What a table says of a ray.
+/// A ray and its expected answer, from one line of a table.
 struct Case<'a> {
     ray: Ray,
     class: &'a str,
@@ -45,14 +45,14 @@ struct Case<'a> {
 }
 
 impl<'a> Case<'a> {
-    /// From the fields of origin and direction, and those of t_min, class, number of hits and t.
+    /// Parses the fields of origin and direction, of `t_min`, and of class, number of hits and t.
     fn new(line: &'a str, fields: &[&'a str], t_min: &str, [class, hits, t]: [&'a str; 3]) -> Self {
         let (origin, direction) = (numbers(&fields[..3]).unwrap(), numbers(&fields[3..6]).unwrap());
         let ray = Ray { t_min: t_min.parse().unwrap(), ..Ray::new(origin, direction) };
         Self { ray, class, t: (hits != "0").then(|| t.parse().unwrap_or(f64::NAN)), line }
     }
 
-    /// How far off the answer is, in scene units; infinite for a hit instead of a miss or the other way round.
+    /// The error of an answer in scene units; infinite for a hit where a miss is expected, and for a miss where a hit is expected.
     fn error(&self, t: Option<f64>) -> f64 {
         match (self.t, t) {
             (Some(expected), Some(t)) => (t - expected).abs() * self.ray.direction.length(),
@@ -67,7 +67,7 @@ fn prepared() -> HashMap<&'static str, Patch> {
 }
 
 #[test]
-fn every_clear_ray_has_its_answer() {
+fn clear_rays_have_their_answers() {
     let patches = prepared();
     assert_eq!(patches.len(), 50);
     let (mut clear, mut delicate) = (0, 0);
@@ -161,14 +161,14 @@ fn no_ray_slips_between_two_patches() {
         let hit = teapot.closest_hit(&case.ray);
         seams += usize::from(case.class == "seam");
         assert!(hit.is_none_or(|hit| hit.t.is_finite()), "{}", case.line);
-        // As much as patches may differ on a shared edge whose points are given in single precision.
+        // The gap between patches at a common edge whose points are given in single precision.
         assert!(case.class == "delicate" || case.error(hit.map(|h| h.t)) < 1e-5 * size, "{line}: {hit:?}");
     }
     assert!(seams > 500, "{seams} seams");
 }
 
-/// How many rays at these points meet nothing. They come from all around above and below, straight down too, from about
-/// this far away; none of them grazes a surface with the normal that comes with a point.
+/// The number of rays aimed at these points that miss the surface. Rays come from about this distance and from many directions,
+/// one of them straight down; rays that would graze a surface with the normal beside the point are left out.
 fn leaks(nets: &[ControlNet], points: impl Iterator<Item = (DVec3, DVec3)>, distance: f64) -> usize {
     let surface = Aggregate::new(nets.iter().map(|net| Primitive::Patch(Arc::new(Patch::new(*net)))).collect());
     let directions = (0..300).map(|k| {
@@ -184,7 +184,7 @@ fn leaks(nets: &[ControlNet], points: impl Iterator<Item = (DVec3, DVec3)>, dist
 
 #[test]
 fn no_ray_slips_through_a_point_or_an_edge_without_derivatives() {
-    // Where four patches of the teapot come together in a point each: the poles of its bottom and its lid.
+    // The poles of the teapot's bottom and lid, in each of which four patches collapse to a point.
     let teapot: Vec<ControlNet> = patches(TEAPOT).into_iter().map(|(_, net)| net).collect();
     let collapsed = |net: &ControlNet| {
         let ends = [net.points[0], net.points[3], net.transposed().points[0], net.transposed().points[3]];
@@ -194,7 +194,7 @@ fn no_ray_slips_through_a_point_or_an_edge_without_derivatives() {
     assert!(poles.len() >= 8, "{} patches with a collapsed edge", poles.len());
     assert_eq!(leaks(&teapot, poles.into_iter().map(|pole| (pole, DVec3::Z)), 1.0), 0, "through a pole");
 
-    // Two patches that meet in a ridge, where the edge row of each is equal to the next one.
+    // Two patches that meet in a ridge, where the edge row of each is equal to the row beside it.
     let slope = |side: f64| {
         let x = [0.0, 0.0, 0.5, 1.0];
         let point = |i: usize, j: usize| DVec3::new(side * x[i], j as f64 / 3.0, 0.2 * x[i]);
@@ -206,7 +206,7 @@ fn no_ray_slips_through_a_point_or_an_edge_without_derivatives() {
 
 #[test]
 fn no_far_ray_slips_between_slivers() {
-    // Side by side, ten thousand times as long as wide, bent along their length, in no special place.
+    // Side by side, ten thousand times as long as wide, bent along their length, turned away from the axes.
     let turn = DMat3::from_rotation_z(0.4) * DMat3::from_rotation_x(0.9);
     let sliver = |side: usize| {
         let point = |i: usize, j: usize| {
@@ -251,7 +251,7 @@ fn the_command_line_gives_the_same_answers() {
 }
 
 #[test]
-fn what_is_exported_reads_back() {
+fn exported_files_read_back() {
     let dir = tempfile::tempdir().unwrap();
     let to = |name: &str| dir.path().join(name).to_str().unwrap().to_owned();
     assert!(patchlight(dir.path(), &["export", "teapot", "-o", &to("teapot.bpt")]).status.success());

@@ -58,7 +58,7 @@ fn around(image: &LinearImage, camera: &Camera, point: DVec3) -> f32 {
 }
 
 #[test]
-fn the_box_shows_its_lamp_and_bleeds_its_colours() {
+fn the_cornell_box_shows_its_lamp_and_colour_bleeding() {
     let (image, camera) = seen("cornell", None, 8);
     let lamp = pixel(&image, &camera, DVec3::new(0.0, 0.998, 0.0));
     assert!((lamp - Vec3::new(15.0, 13.0, 10.0)).length() < 1e-3, "the lamp's own radiance: {lamp}");

@@ -1,4 +1,4 @@
-//! The program as people and scripts call it.
+//! The program as users and scripts call it.
 
 use crate::support::{advanced, patchlight};
 use patchlight::{
@@ -55,13 +55,13 @@ fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
-/// That it ends with this code, without a panic, and that the message has all these parts.
-fn fails(output: &Output, code: i32, parts: &[&str]) {
+/// Asserts that the program ended with this code and without a panic, and that its message has all these phrases.
+fn fails(output: &Output, code: i32, phrases: &[&str]) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(code), "{message}");
     assert!(!message.contains("panicked"), "{message}");
-    for part in parts {
-        assert!(message.contains(part), "should say {part:?}, but says\n{message}");
+    for phrase in phrases {
+        assert!(message.contains(phrase), "should say {phrase:?}, but says\n{message}");
     }
 }
 
@@ -85,7 +85,7 @@ fn renders_png_exr_and_statistics() {
     run("c.exr", &["--seed", "1"]);
     let png = image::open(dir.path().join("a.png")).unwrap().into_rgb8();
     assert_eq!(png.dimensions(), (40, 30));
-    assert_eq!(png.get_pixel(0, 0).0, [0, 0, 0], "the corner sees nothing");
+    assert_eq!(png.get_pixel(0, 0).0, [0, 0, 0], "the corner shows the black background");
     assert!(png.get_pixel(23, 10).0[0] > 100, "the side towards the light, above and to the right, is bright");
     let read = |name: &str| fs::read(dir.path().join(name)).unwrap();
     assert_eq!(read("a.exr"), read("b.exr"), "the same seed, the same picture");
@@ -113,7 +113,7 @@ fn one_thread_and_three_give_the_same_bits() {
 }
 
 #[test]
-fn seconds_are_kept() {
+fn rendering_ends_within_its_seconds() {
     let dir = folder();
     let run = patchlight(
         dir.path(),
@@ -122,7 +122,7 @@ fn seconds_are_kept() {
     assert!(run.status.success(), "{}", stderr(&run));
     let stats: serde_json::Value = serde_json::from_slice(&fs::read(dir.path().join("a.json")).unwrap()).unwrap();
     let seconds = stats["seconds"].as_f64().unwrap();
-    // It ends before the iteration that would end too late; only that one's length is unknown, and it is tiny here.
+    // It ends before the iteration that would end too late; only the length of that iteration is unknown, and it is tiny here.
     assert!(seconds > 0.1 && seconds < 0.7, "{seconds}");
 }
 
@@ -157,7 +157,7 @@ fn check_prints_the_plan() {
     assert!(report.contains("rendered  caustics: "), "{report}");
 }
 
-/// A program that gets no memory in between is ended by the system; so it asks before.
+/// The system ends a program that runs out of memory, so the program compares with the free memory first.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_picture_too_large_for_the_memory_is_refused() {
@@ -168,11 +168,11 @@ fn a_picture_too_large_for_the_memory_is_refused() {
     );
     let output = Command::new("sh").args(["-c", &render]).current_dir(dir.path()).output().unwrap();
     fails(&output, 1, &["a picture of 16384 x 16384 pixels takes about", "more than is free"]);
-    assert_eq!(names(dir.path()), ["ball.toml"], "nothing was written");
+    assert_eq!(names(dir.path()), ["ball.toml"], "no file was written");
 }
 
 #[test]
-fn of_very_many_mistakes_some_are_listed() {
+fn a_long_list_of_mistakes_is_cut() {
     let dir = folder();
     fs::write(dir.path().join("bad.toml"), format!("{SCENE}{}", "[[light]]\nname = \"\"\n".repeat(50))).unwrap();
     let output = patchlight(dir.path(), &["check", "bad.toml"]);
@@ -212,7 +212,7 @@ fn scene_mistakes_are_located() {
         let output = patchlight(dir.path(), command);
         fails(&output, 2, &["bad.toml:24:1: object[0].raduis: unknown key", "did you mean \"radius\"?"]);
     }
-    assert_eq!(names(dir.path()), ["bad.toml", "ball.toml"], "nothing was written");
+    assert_eq!(names(dir.path()), ["bad.toml", "ball.toml"], "no file was written");
 }
 
 #[test]
@@ -235,7 +235,7 @@ fn command_line_mistakes_end_with_2() {
         (&["render", "ball.toml", "-o", "a.png", "--seconds", "-1"], "expected a number above 0"),
         (&["render", "ball.toml", "-o", "a.png", "--size", "0x4"], "like 640x480"),
         (&["render", "ball.toml", "-o", "a.png", "--threads", "0"], "--threads"),
-        (&["render", "nothing.toml", "-o", "a.png"], "nothing.toml: cannot be read"),
+        (&["render", "missing.toml", "-o", "a.png"], "missing.toml: cannot be read"),
         (
             &["render", "tepot", "-o", "a.png"],
             "tepot: no such scene file or built-in scene; the built-in scenes are report, report-flipped, water, cardioid, lens, teapot, \
@@ -245,7 +245,7 @@ fn command_line_mistakes_end_with_2() {
             &["render", "bogus", "-o", "a.png"],
             "bogus: no such scene file or built-in scene; the built-in scenes are report",
         ),
-        (&["bench", "ball.toml", "--reference", "nothing.exr"], "nothing.exr: cannot be read"),
+        (&["bench", "ball.toml", "--reference", "missing.exr"], "missing.exr: cannot be read"),
         (&["bench", "ball.toml"], "expected either SCENE --reference REF.exr, or --suite FILE.toml --output FOLDER"),
         (&["bench", "--suite", "a.toml", "--output", "out"], "a.toml: cannot be read"),
         (&["bench", "--suite", "a.toml", "--output", "out", "--seeds", "2"], "cannot be used with"),
@@ -258,11 +258,11 @@ fn command_line_mistakes_end_with_2() {
     for (arguments, message) in mistakes {
         fails(&patchlight(dir.path(), arguments), 2, &[message]);
     }
-    assert_eq!(names(dir.path()), ["ball.toml"], "nothing was written");
+    assert_eq!(names(dir.path()), ["ball.toml"], "no file was written");
 }
 
 #[test]
-fn what_cannot_be_written_ends_with_1_and_leaves_what_was_there() {
+fn a_failed_write_ends_with_1_and_leaves_the_old_file() {
     let dir = folder();
     fs::create_dir(dir.path().join("a.png")).unwrap();
     let run = ["render", "ball.toml", "-o", "a.png", "--iterations", "1", "--size", "8x8"];
@@ -295,8 +295,8 @@ fn bench_measures_against_a_reference() {
         ["--reference", "truth.exr", "--mask", "mask.png", "--seconds", "0.2,0.05", "--seeds", "2", "--csv", "a.csv"];
     let output = patchlight(dir.path(), &[&["bench", "ball.toml"], &run[..]].concat());
     assert!(output.status.success(), "{}", stderr(&output));
-    for part in ["RMSE falls as t^", "\nmedians of 2 seeds\n", "RMSE out  relMSE out"] {
-        assert!(stdout(&output).contains(part), "{part:?} in\n{}", stdout(&output));
+    for phrase in ["RMSE falls as t^", "\nmedians of 2 seeds\n", "RMSE out  relMSE out"] {
+        assert!(stdout(&output).contains(phrase), "{phrase:?} in\n{}", stdout(&output));
     }
     let csv = fs::read_to_string(dir.path().join("a.csv")).unwrap();
     assert_eq!(column(&csv, "seed"), ["0", "0", "1", "1"]);
@@ -307,7 +307,7 @@ fn bench_measures_against_a_reference() {
         let rmse: f64 = rmse.parse().unwrap();
         assert!(rmse > 0.0 && rmse < 0.1, "a ball lit by one lamp is soon right: {csv}");
     }
-    // Outside the mask are the background, which nobody gets wrong, and the ball's dark side.
+    // Outside the mask are the black background, which has no error, and the ball's dark side.
     let outside = column(&csv, "rmse_outside");
     assert!(outside.iter().all(|rmse| rmse.parse().is_ok_and(|rmse: f64| rmse < 0.1)), "{csv}");
     assert_ne!(outside, column(&csv, "rmse"));
@@ -319,8 +319,8 @@ fn bench_without_a_mask_counts_every_pixel() {
     let run = ["bench", "ball.toml", "--reference", "truth.exr", "--seconds", "0.05", "--csv", "a.csv"];
     let output = patchlight(dir.path(), &run);
     assert!(output.status.success(), "{}", stderr(&output));
-    for part in ["falls as", "median", "out"] {
-        assert!(!stdout(&output).contains(part), "{part:?} in\n{}", stdout(&output));
+    for phrase in ["falls as", "median", "out"] {
+        assert!(!stdout(&output).contains(phrase), "{phrase:?} in\n{}", stdout(&output));
     }
     let csv = fs::read_to_string(dir.path().join("a.csv")).unwrap();
     assert_eq!(column(&csv, "rmse_outside"), [""]);
@@ -356,13 +356,13 @@ seconds = [0.1]
 "#;
 
 #[test]
-fn a_suite_measures_all_its_scenes() {
+fn a_suite_measures_each_of_its_scenes() {
     let dir = bench_folder();
     let small = SCENE.replace("[[material]]", "[film]\nwidth = 24\nheight = 16\n\n[[material]]");
     fs::write(dir.path().join("ball.toml"), small).unwrap();
     fs::write(dir.path().join("suite.toml"), SUITE).unwrap();
     fs::create_dir(dir.path().join("elsewhere")).unwrap();
-    // Paths in the suite are relative to it, the folder to the place where the program runs.
+    // Paths in the suite are relative to it, the folder to the working directory.
     let elsewhere = dir.path().join("elsewhere");
     let output = patchlight(&elsewhere, &["bench", "--suite", "../suite.toml", "--output", "out/put"]);
     assert!(output.status.success(), "{}", stderr(&output));
@@ -382,10 +382,10 @@ fn a_suite_measures_all_its_scenes() {
 }
 
 #[test]
-fn suite_mistakes_end_with_2_before_anything_is_rendered() {
+fn suite_mistakes_end_with_2_before_the_rendering() {
     let dir = folder();
     let suite = SUITE.replace("truth.exr", "ball.toml");
-    for (text, parts) in [
+    for (text, phrases) in [
         (suite.clone(), &["suite.toml: run \"given\": ", "mask.png: cannot be read"][..]),
         (suite.replace("mask = ", "maks = "), &["suite.toml: ", "line 14", "unknown field `maks`", "`mask`"]),
         (suite.replace("seeds = 2", "seeds = \"2\""), &["suite.toml: ", "line 7", "invalid type: string \"2\""]),
@@ -394,9 +394,9 @@ fn suite_mistakes_end_with_2_before_anything_is_rendered() {
         (suite.replace("mask = \"mask.png\"", ""), &["suite.toml: run \"given\": ball.toml: "]),
     ] {
         fs::write(dir.path().join("suite.toml"), text).unwrap();
-        fails(&patchlight(dir.path(), &["bench", "--suite", "suite.toml", "--output", "out"]), 2, parts);
+        fails(&patchlight(dir.path(), &["bench", "--suite", "suite.toml", "--output", "out"]), 2, phrases);
     }
-    assert_eq!(names(dir.path()), ["ball.toml", "suite.toml"], "nothing was written");
+    assert_eq!(names(dir.path()), ["ball.toml", "suite.toml"], "no file was written");
 }
 
 #[test]
@@ -405,7 +405,7 @@ fn the_suites_of_the_project_are_valid() {
     let dir = folder();
     fs::write(dir.path().join("taken"), "").unwrap();
     let taken = dir.path().join("taken");
-    // All files are read before the folder is made, which fails here and ends it before the rendering.
+    // The program reads all files before it creates the folder, and the failed creation ends it before the rendering.
     for suite in ["suite", "references", "others"] {
         let file = format!("benches/suite/{suite}.toml");
         let run = ["bench", "--suite", &file, "--output", taken.to_str().unwrap()];
@@ -414,7 +414,7 @@ fn the_suites_of_the_project_are_valid() {
 }
 
 #[test]
-fn a_reference_of_another_size_than_the_mask_is_refused() {
+fn a_mask_must_have_the_size_of_the_reference() {
     let dir = folder();
     for (out, size) in [("truth.exr", "8x8"), ("mask.png", "9x8")] {
         let run = ["render", "ball.toml", "-o", out, "--size", size, "--iterations", "1"];
@@ -425,14 +425,14 @@ fn a_reference_of_another_size_than_the_mask_is_refused() {
 }
 
 #[test]
-fn without_a_display_there_is_a_message() {
+fn without_a_display_a_message_names_the_render_command() {
     let dir = folder();
     fails(&patchlight(dir.path(), &[]), 1, &["patchlight render report -o"]);
     fails(&patchlight(dir.path(), &["ball.toml"]), 1, &["patchlight render ball.toml -o"]);
 }
 
 #[test]
-fn help_and_version_end_well() {
+fn help_and_version_are_printed() {
     let dir = folder();
     assert!(stdout(&patchlight(dir.path(), &["--help"])).contains("render"));
     assert!(stdout(&patchlight(dir.path(), &["--version"])).starts_with("patchlight 0."));

@@ -12,7 +12,7 @@ fn narrow_camera(position: [f64; 3], target: [f64; 3]) -> String {
 
 /// C1: in a closed sphere the indirect irradiance is `Phi rho / (4 pi R^2 (1 - rho))` everywhere, wherever the light is.
 #[test]
-fn integrating_sphere() {
+fn radiance_in_an_integrating_sphere() {
     for light in [[0.0, 0.0, 0.0], [0.5, -0.3, 0.2]] {
         let text = format!(
             "[camera]\nposition = [0.1, 0.0, 0.2]\ntarget = [1.0, 0.3, 0.0]\nfov_y = 90.0\n[film]\nwidth = 24\nheight = 24
@@ -30,7 +30,7 @@ fn integrating_sphere() {
 
 /// C3: a point light's irradiance is `I cos / d^2`.
 #[test]
-fn inverse_square() {
+fn irradiance_of_a_point_light() {
     for height in [0.5f64, 2.0, 8.0] {
         let text = format!(
             "{}[render]\nmax_bounces = 1
@@ -49,7 +49,7 @@ fn inverse_square() {
 
 /// The irradiance of a sphere in full view is `pi L (R / d)^2`, that of a rectangle a sum of four angles.
 #[test]
-fn area_lights() {
+fn irradiance_of_area_lights() {
     let under = |light: &str| {
         format!(
             "{}[render]\nmax_bounces = 1
@@ -70,8 +70,8 @@ fn area_lights() {
     assert_near(mean(&render(&quad, 64)), 2.0 * form_factor, 5e-3, "a rectangle's corner");
 }
 
-/// A mirror-like Phong lobe sees a lamp with the lamp's own radiance, whichever way it is found: direct light and the
-/// lobe's own paths share the work.
+/// A mirror-like Phong lobe sees a lamp with the lamp's own radiance, found by direct light and by the lobe's own paths with
+/// MIS weights.
 #[test]
 fn glossy_reflection_of_a_lamp() {
     for exponent in [20.0, 2_000.0, 200_000.0] {
@@ -104,7 +104,7 @@ fn pool(index: f64, camera: &str, max_bounces: u32) -> String {
 /// C7: below flat water, a height h under the lamp and a depth d, the irradiance is `T I / (h + d / n)^2`; seen from
 /// above at normal incidence the radiance is squeezed by `T / n^2`.
 #[test]
-fn flat_water() {
+fn irradiance_and_radiance_through_flat_water() {
     let n = 1.33f64;
     let transmittance = 4.0 * n / (n + 1.0).powi(2);
     let irradiance = transmittance / (1.0 + 1.0 / n).powi(2);
@@ -126,11 +126,11 @@ fn wide(text: &str, degrees: f64) -> String {
     text.replace("fov_y = 0.2", &format!("fov_y = {degrees}")).replace("up = [0.3, 0.9, 0.1]", "up = [0.3, 0.2, 0.9]")
 }
 
-/// O2: glass with the index of air is not there.
+/// O2: glass with the index of air is invisible.
 #[test]
-fn index_one_is_invisible() {
+fn glass_of_index_one_is_invisible() {
     let camera = narrow_camera([0.0, 6.0, 0.0], [0.2, -1.0, 0.0]);
     let text = wide(&pool(1.0, &camera, 3), 2.0);
     let expected = 0.5 / PI * 2.0 / (4.0f64 + 0.04).powf(1.5);
-    assert_near(mean(&render(&text, 64)), expected, 0.03, "through nothing");
+    assert_near(mean(&render(&text, 64)), expected, 0.03, "through glass of index 1");
 }

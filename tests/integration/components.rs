@@ -1,7 +1,8 @@
-//! Parts of the light add up to the picture, and cost only their own passes.
+//! The components of light add up to the picture, and each needs only its own passes.
 
 use crate::support::advanced;
 use patchlight::engine::Session;
+use patchlight::math::Rgb;
 use patchlight::scene::SceneFile;
 use patchlight::transport::Component;
 use std::path::Path;
@@ -13,26 +14,26 @@ fn rendered(only: Option<Component>) -> Session {
 }
 
 #[test]
-fn parts_add_up_to_the_picture() {
+fn components_add_up_to_the_picture() {
     let whole = rendered(None).film().image();
-    let parts = [Component::Direct, Component::Caustics, Component::Interreflection];
-    let parts = parts.map(|part| rendered(Some(part)).film().image());
+    let components = [Component::Direct, Component::Caustics, Component::Interreflection];
+    let components = components.map(|component| rendered(Some(component)).film().image());
     let (mut difference, mut total) = (0.0, 0.0);
     for (k, pixel) in whole.pixels.iter().enumerate() {
-        let sum = parts[0].pixels[k] + parts[1].pixels[k] + parts[2].pixels[k];
+        let sum = components.iter().map(|image| image.pixels[k]).sum::<Rgb>();
         difference += (sum - *pixel).abs().element_sum();
         total += pixel.element_sum();
     }
-    // The same paths, as long as nothing was measured. But at the feet of objects the polygons that tell what is in view reach
-    // as far as the largest disc, and so they differ a little on some pixels.
+    // Both trace the same paths before the plan is refined. At the feet of objects a few pixels differ a little, because the
+    // radius of a visibility polygon is that of the largest disc.
     assert!(difference < 1e-4 * total, "{difference} of {total}");
-    for part in &parts {
-        assert!(part.pixels.iter().any(|pixel| pixel.max_element() > 0.0), "every part is there");
+    for image in &components {
+        assert!(image.pixels.iter().any(|pixel| pixel.max_element() > 0.0), "no component is black");
     }
 }
 
 #[test]
-fn what_is_not_asked_for_is_not_looked_for() {
+fn a_single_component_skips_the_passes_of_the_rest() {
     let counters = |only| rendered(Some(only)).stats().counters;
     let direct = counters(Component::Direct);
     assert_eq!((direct.caustic_paths, direct.global_paths, direct.map_builds), (0, 0, 0));

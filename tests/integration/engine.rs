@@ -7,7 +7,7 @@ use patchlight::transport::Cancel;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Long enough for the slowest machine; nothing waits this long unless it fails.
+/// Timeout of a wait, long enough for the slowest machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn room(radius: f64) -> Arc<SceneFile> {
@@ -22,7 +22,7 @@ fn room(radius: f64) -> Arc<SceneFile> {
 }
 
 #[test]
-fn there_is_no_estimate_before_noise_and_bias_are_known() {
+fn an_error_estimate_waits_for_noise_and_bias() {
     let estimated_from = |file: &SceneFile| {
         let mut session = Session::prepare(file, 1, None).expect("the scene can be prepared");
         (1..10).find(|_| {
@@ -59,7 +59,7 @@ fn frame_where(engine: &Engine, condition: impl Fn(&Frame) -> bool) -> Arc<Frame
 
 #[test]
 fn a_draft_comes_first_and_then_the_picture() {
-    // The worker waits whenever it calls, until this test has looked: so it sees every frame.
+    // The worker waits at each call until this test has looked, so the test sees every frame.
     let (call, called) = crossbeam_channel::bounded(0);
     let (look, looked) = crossbeam_channel::bounded::<()>(0);
     let wake = move || {
@@ -88,10 +88,10 @@ fn a_draft_comes_first_and_then_the_picture() {
     assert!(last.stats.photons_emitted > 0 && last.stats.seconds > 0.0);
 }
 
-/// During a fast drag every edit outdates the one before: pictures appear all the same, in order, and the last edit's
-/// picture is what remains.
+/// During a fast drag every edit outdates the one before: pictures still appear, in order, and the last edit's
+/// picture stays.
 #[test]
-fn a_fast_drag_shows_pictures_all_along() {
+fn pictures_appear_during_a_fast_drag() {
     let engine = engine();
     let (mut shown, mut newest) = (0, 0);
     for edit in 1..=60 {
@@ -124,7 +124,7 @@ fn pause_holds_and_restart_begins_again() {
     let engine = paused_engine();
     let held = wait_for(|| engine.newest_frame());
     std::thread::sleep(Duration::from_millis(100));
-    assert!(engine.newest_frame().is_none(), "nothing comes while it pauses");
+    assert!(engine.newest_frame().is_none(), "no frame while the engine pauses");
     engine.send(Command::Resume);
     frame_where(&engine, |frame| frame.iteration > held.iteration);
     engine.send(Command::Restart);
@@ -133,16 +133,16 @@ fn pause_holds_and_restart_begins_again() {
 }
 
 #[test]
-fn a_picture_that_is_good_enough_costs_nothing_until_something_changes() {
+fn a_converged_picture_rests_until_the_target_or_the_scene_changes() {
     let engine = engine();
     engine.send(Command::Target(Some(0.2)));
     engine.send(Command::Show(room(0.5)));
     let converged = || wait_for(|| (engine.status() == Status::Converged).then(|| engine.newest_frame()));
     let error = |frame: &Frame| frame.stats.error_estimate.expect("it is known");
-    let rough = converged().expect("the last frame shows what was reached");
+    let rough = converged().expect("the last frame has the reached error");
     assert!(error(&rough) <= 0.2, "{}", error(&rough));
     std::thread::sleep(Duration::from_millis(100));
-    assert!(engine.newest_frame().is_none(), "nothing comes while it rests");
+    assert!(engine.newest_frame().is_none(), "no frame while the engine rests");
     let finer = 0.5 * error(&rough);
     engine.send(Command::Target(Some(finer)));
     let fine = frame_where(&engine, |frame| error(frame) <= finer);
@@ -166,13 +166,13 @@ fn an_edit_while_paused_gets_one_iteration() {
 }
 
 #[test]
-fn a_scene_that_cannot_be_rendered_says_why_and_harms_no_other() {
+fn an_invalid_scene_gives_a_reason_and_the_next_scene_renders() {
     let mut broken = (*room(0.5)).clone();
-    "nothing".clone_into(&mut broken.scene.objects[0].material);
+    "missing".clone_into(&mut broken.scene.objects[0].material);
     let engine = engine();
     engine.send(Command::Show(Arc::new(broken)));
     let reason = wait_for(|| if let Status::Failed(reason) = engine.status() { Some(reason) } else { None });
-    assert!(reason.contains("`ball`") && reason.contains("`nothing`"), "{reason}");
+    assert!(reason.contains("`ball`") && reason.contains("`missing`"), "{reason}");
     engine.send(Command::Show(room(0.5)));
     assert_eq!(frame_where(&engine, |frame| frame.iteration >= 1).generation, 2);
 }

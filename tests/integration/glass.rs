@@ -9,7 +9,7 @@ use patchlight::math::{Ray, Sampler, Stream, warp};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// How often a photon may meet the surface.
+/// The most surface hits that a photon may have.
 const MAX_DEPTH: usize = 32;
 
 /// A rounded cube with dents: six faces whose edges run on a sphere, all normals outward. Rays meet it up to four times.
@@ -29,15 +29,15 @@ fn body() -> Aggregate {
     Aggregate::new((0..6).map(patch).collect())
 }
 
-/// What became of photons: surfaces met, and how many of them from the wrong side or not at all.
+/// Surface hits of photons, and photons that met a surface from the wrong side or left the closed body through no surface.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     met: u64,
     wrong: u64,
 }
 
-/// Follows one photon from outside: it is reflected or refracted with the same chance, and must be outside again at the
-/// end, or have met every surface from the side on which it is.
+/// Follows one photon from outside. It is reflected or refracted with equal probability, meets every surface from the side that it
+/// is on, and leaves the scene on the outside.
 fn follow(body: &Aggregate, index: u64) -> Tally {
     let mut sampler = Sampler::new(5, Stream::Camera, 0, index);
     let from = 4.0 * warp::uniform_sphere(sampler.next_2d());
@@ -75,9 +75,9 @@ fn refract(direction: DVec3, side: DVec3, eta: f64) -> Option<DVec3> {
     (sin_squared < 1.0).then(|| direction / eta + (cos / eta - (1.0 - sin_squared).sqrt()) * side)
 }
 
-/// Nested glass that absorbs nothing, under an even sky of radiance 1: whatever way light goes, it arrives with radiance 1.
+/// Nested glass without absorption under a uniform background of radiance 1: every path of light arrives with radiance 1.
 #[test]
-fn nested_glass_under_an_even_sky_cannot_be_seen() {
+fn nested_glass_before_a_uniform_background_is_invisible() {
     let body = |name: &str, radius: f64, material: &str| ball(name, 0.0, radius, material);
     let text = format!(
         "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 24\nheight = 24
@@ -101,7 +101,7 @@ fn nested_glass_under_an_even_sky_cannot_be_seen() {
 }
 
 #[test]
-fn no_photon_ends_up_on_the_wrong_side() {
+fn photons_stay_on_their_side_of_a_closed_body() {
     let photons = 10_000_000;
     let body = body();
     let tally = (0..photons)

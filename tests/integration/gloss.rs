@@ -1,4 +1,4 @@
-//! A small bright spot seen in a glossy floor, known by summation over the spot: light that paths from the camera hardly find.
+//! A small bright spot reflected by a glossy floor: light that camera paths hardly find. Its radiance is known by summation over the spot.
 
 use crate::support::{photon_radiance, session_of_seed, world};
 use glam::{DVec2, DVec3};
@@ -8,14 +8,14 @@ use std::f64::consts::{PI, TAU};
 /// Half a side of the square spot about (2, 1.2, 0), which looks to -x.
 const HALF: f64 = 0.02;
 const LAMP: DVec3 = DVec3::new(1.98, 1.2, 0.0);
-const EYE: DVec3 = DVec3::new(-1.0, 1.2, 0.0);
+const CAMERA: DVec3 = DVec3::new(-1.0, 1.2, 0.0);
 const SIZE: u32 = 32;
 const EXPONENT: f64 = 30.0;
 
-/// A glossy floor seen from the eye; light reaches it from the lamp and once reflected from the spot.
+/// A glossy floor seen by the camera; light reaches it from the lamp and once reflected from the spot.
 fn scene(max_bounces: u32) -> String {
     format!(
-        "[camera]\nposition = {eye:?}\ntarget = [0.5, 0, 0]\nfov_y = 20
+        "[camera]\nposition = {camera:?}\ntarget = [0.5, 0, 0]\nfov_y = 20
         [film]\nwidth = {SIZE}\nheight = {SIZE}\n[render]\nmax_bounces = {max_bounces}
         [[material]]\nname = \"white\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
         [[material]]\nname = \"gloss\"\ntype = \"phong\"
@@ -25,25 +25,25 @@ fn scene(max_bounces: u32) -> String {
         [[object]]\nname = \"spot\"\ntype = \"quad\"\nmaterial = \"white\"
         corner = [2, {spot}, {HALF}]\nedge_u = [0, 0, -{side}]\nedge_v = [0, {side}, 0]
         [[light]]\nname = \"l\"\ntype = \"point\"\nposition = {lamp:?}\nintensity = [1, 1, 1]\n",
-        eye = EYE.to_array(),
+        camera = CAMERA.to_array(),
         spot = 1.2 - HALF,
         side = 2.0 * HALF,
         lamp = LAMP.to_array(),
     )
 }
 
-/// Radiance towards the eye, by light that the spot reflected, of the floor where a pixel's middle shows it.
+/// Radiance from the floor in the middle of a pixel towards the camera, by light that the spot reflected.
 fn expected(column: u32, row: u32) -> f64 {
-    let forward = (DVec3::new(0.5, 0.0, 0.0) - EYE).normalize();
+    let forward = (DVec3::new(0.5, 0.0, 0.0) - CAMERA).normalize();
     let right = forward.cross(DVec3::Y).normalize();
     let at = |k: u32| (2.0 * (f64::from(k) + 0.5) / f64::from(SIZE) - 1.0) * 10f64.to_radians().tan();
     let ray = forward + at(column) * right - at(row) * right.cross(forward);
-    let floor = EYE - EYE.y / ray.y * ray;
+    let floor = CAMERA - CAMERA.y / ray.y * ray;
     let mirrored = (ray * DVec3::new(1.0, -1.0, 1.0)).normalize();
     let n = 24;
-    let place = |k: i32| HALF * (f64::from(2 * k + 1) / f64::from(n) - 1.0);
-    let from_part = |k: i32| {
-        let DVec2 { x: y, y: z } = DVec2::new(place(k / n), place(k % n));
+    let offset = |k: i32| HALF * (f64::from(2 * k + 1) / f64::from(n) - 1.0);
+    let from_cell = |k: i32| {
+        let DVec2 { x: y, y: z } = DVec2::new(offset(k / n), offset(k % n));
         let spot = DVec3::new(2.0, 1.2 + y, z);
         let to_lamp = LAMP - spot;
         let to_spot = spot - floor;
@@ -53,10 +53,10 @@ fn expected(column: u32, row: u32) -> f64 {
         0.5 / PI * lit * reached * lobe
     };
     let area = (2.0 * HALF / f64::from(n)).powi(2);
-    area * (0..n * n).map(from_part).sum::<f64>()
+    area * (0..n * n).map(from_cell).sum::<f64>()
 }
 
-/// The mean of the pixels over what it should be, and the root mean square of their errors over the same.
+/// The mean of the pixels and their root mean square error, both over the expected mean.
 fn errors(iterations: u64, seed: u64) -> [f64; 2] {
     let image = |max_bounces| session_of_seed(&scene(max_bounces), iterations, seed).film().image().pixels;
     let (mut mean, mut truth, mut squares) = (0.0, 0.0, 0.0);
@@ -71,7 +71,7 @@ fn errors(iterations: u64, seed: u64) -> [f64; 2] {
 }
 
 #[test]
-fn a_bright_spot_leaves_no_speckles_in_gloss() {
+fn gloss_shows_a_bright_spot_without_speckles() {
     let runs = [1, 2, 3, 4].map(|seed| errors(256, seed));
     let mean = |k: usize| runs.iter().map(|run| run[k]).sum::<f64>() / runs.len() as f64;
     let variance = runs.iter().map(|run| (run[0] - mean(0)).powi(2)).sum::<f64>() / (runs.len() - 1) as f64;
@@ -93,20 +93,20 @@ const GLOSSY_ROOM: &str = "[camera]\nposition = [0, 0, 3.8]\ntarget = [0, 0, 0]\
     [[object]]\nname = \"left\"\ntype = \"quad\"\nmaterial = \"white\"\ncorner = [-1, -1, 1]\nedge_u = [0, 0, -2]\nedge_v = [0, 2, 0]
     [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0.3, 0.5, 0]\nintensity = [1, 1, 1]\n";
 
-/// Neighbours reuse the lobe samples of a pixel: against the mean of many iterations in which none does, the squared error of one
-/// iteration falls to a part, and the mean stays.
+/// Lobe reuse lowers the squared error of one iteration and keeps the mean. The truth is the mean of many iterations without lobe
+/// reuse.
 #[test]
-fn neighbours_share_what_their_lobes_show() {
+fn lobe_reuse_lowers_the_variance_and_keeps_the_mean() {
     let world = world(GLOSSY_ROOM);
-    let sharing = Plan::new(&world);
-    let mut alone = sharing.clone();
+    let reusing = Plan::new(&world);
+    let mut alone = reusing.clone();
     alone.reuses_lobes = false;
     let inner = |k: &usize| (18..30).contains(&(k % 48)) && (18..30).contains(&(k / 48));
     let image = |plan: &Plan, seed| {
         let radiance = photon_radiance(&world, plan, seed, 4);
         (0..48 * 48).filter(inner).map(|k| f64::from(radiance[k].y)).collect::<Vec<f64>>()
     };
-    let runs: Vec<[Vec<f64>; 2]> = (0..64).map(|seed| [image(&alone, seed), image(&sharing, seed)]).collect();
+    let runs: Vec<[Vec<f64>; 2]> = (0..64).map(|seed| [image(&alone, seed), image(&reusing, seed)]).collect();
     let truth: Vec<f64> = (0..144).map(|k| runs.iter().map(|run| run[0][k]).sum::<f64>() / 64.0).collect();
     let statistics = |of: &dyn Fn(&[Vec<f64>; 2]) -> f64| {
         let values: Vec<f64> = runs.iter().map(of).collect();
@@ -115,18 +115,18 @@ fn neighbours_share_what_their_lobes_show() {
         (mean, (variance / 64.0).sqrt())
     };
     let squares = |image: &[f64]| image.iter().zip(&truth).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
-    // 0.36 with a standard error of 0.01. The truth is the mean of the runs alone, so that they look 1/64 better than they are.
-    let (ratio, error) = statistics(&|[alone, sharing]| squares(sharing) / squares(alone));
+    // 0.36 with a standard error of 0.01. The truth is the mean of the runs without reuse, so these runs look 1/64 better than they are.
+    let (ratio, error) = statistics(&|[alone, reusing]| squares(reusing) / squares(alone));
     assert!(ratio + 5.0 * error < 0.43, "{ratio}, standard error {error}");
     // The blur over some pixels, which shrinks with the discs, changes the mean by 0.009; its standard error is below 0.001.
-    let (bias, error) = statistics(&|[alone, sharing]| sharing.iter().sum::<f64>() / alone.iter().sum::<f64>() - 1.0);
+    let (bias, error) = statistics(&|[alone, reusing]| reusing.iter().sum::<f64>() / alone.iter().sum::<f64>() - 1.0);
     assert!(bias.abs() + 5.0 * error < 0.02, "{bias}, standard error {error}");
 }
 
-/// A pixel at the floor's edge samples little of the floor's lobe: its neighbours do not reuse that sample, and it does not reuse
-/// theirs.
+/// A pixel at the floor's edge samples little of the floor's lobe: its neighbours do not reuse this sample, and the pixel
+/// does not reuse its neighbours' samples.
 #[test]
-fn edges_share_no_lobes() {
+fn pixels_at_edges_neither_give_nor_take_lobe_samples() {
     let text = scene(2).replace("fov_y = 20", "fov_y = 60");
     let world = world(&text);
     let plan = Plan::new(&world);
@@ -137,6 +137,6 @@ fn edges_share_no_lobes() {
         |pixel: usize| seen.visible_points.iter().filter(|p| p.pixel as usize == pixel && p.seen_directly).count();
     let edges: Vec<usize> = (0..lobes.len()).filter(|&k| seen.samples[k].is_heterogeneous).collect();
     assert!(edges.iter().any(|&k| met(k) == 1), "one of its paths met the floor, the other paths left the scene");
-    assert!(edges.iter().all(|&k| lobes[k].is_none()), "lobes are shared at edges");
-    assert!(lobes.iter().flatten().count() > lobes.len() / 8, "lobes are shared elsewhere");
+    assert!(edges.iter().all(|&k| lobes[k].is_none()), "edges have no lobe samples to reuse");
+    assert!(lobes.iter().flatten().count() > lobes.len() / 8, "pixels inside the floor have lobe samples");
 }

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 /// Half a side of the square spot about (2, 1.2, 0), which looks to -x.
 const HALF: f64 = 0.03;
 const LAMP: DVec3 = DVec3::new(1.97, 1.2, 0.0);
-/// The opaque screen stands on the floor at this x and is so high.
+/// The x where the opaque screen stands on the floor, and its height.
 const SCREEN: DVec2 = DVec2::new(0.5, 0.6);
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 48;
@@ -39,7 +39,7 @@ fn scene(x: f64, max_bounces: u32) -> String {
 fn expected(x: f64, z: f64) -> f64 {
     let n = 48;
     let at = |k: i32| HALF * (f64::from(2 * k + 1) / f64::from(n) - 1.0);
-    let from_part = |k: i32| {
+    let from_cell = |k: i32| {
         let spot = DVec3::new(2.0, 1.2 + at(k / n), at(k % n));
         let to_lamp = LAMP - spot;
         let to_spot = spot - DVec3::new(x, 0.0, z);
@@ -49,10 +49,10 @@ fn expected(x: f64, z: f64) -> f64 {
         if is_hidden { 0.0 } else { 0.5 / PI * lit * reached }
     };
     let area = (2.0 * HALF / f64::from(n)).powi(2);
-    0.5 / PI * area * (0..n * n).map(from_part).sum::<f64>()
+    0.5 / PI * area * (0..n * n).map(from_cell).sum::<f64>()
 }
 
-/// The means of the columns, so that noise does not count as an edge, and what they should be.
+/// The rendered and the expected means of the columns. A mean over a column keeps noise from counting as an edge.
 fn columns(x: f64, iterations: u64, seed: u64) -> (Vec<f64>, Vec<f64>) {
     let image = |max_bounces| session_of_seed(&scene(x, max_bounces), iterations, seed).film().image().pixels;
     let indirect: Vec<Rgb> = image(2).iter().zip(image(1)).map(|(all, direct)| all - direct).collect();
@@ -82,7 +82,7 @@ fn unrefined_columns(x: f64, iterations: u64, seed: u64) -> Vec<f64> {
     sums.iter().map(|sum| sum / pixels).collect()
 }
 
-/// Around the edge measured radii leave less error than the same photons in discs that shrink alike everywhere.
+/// Around the edge measured radii leave less error than the same photons in discs with one rate of shrinking.
 #[test]
 fn the_edge_of_an_indirect_shadow_is_sharp() {
     let iterations = 256;
@@ -103,7 +103,7 @@ fn the_edge_of_an_indirect_shadow_is_sharp() {
 
 /// Seen from right above the screen, the floor is dark on one side of its foot and bright on the other.
 #[test]
-fn light_neither_leaks_under_a_screen_nor_fades_in_front_of_it() {
+fn light_neither_leaks_under_a_screen_nor_fades_before_it() {
     let (found, truth) = columns(SCREEN.x, 64, 1);
     let foot = WIDTH as usize / 2;
     assert!(found[foot - 8..foot].iter().all(|&behind| behind < 0.01 * truth[foot]), "{:?}", &found[foot - 8..foot]);

@@ -1,4 +1,4 @@
-//! What the program does, seen from outside; one binary, so that it is linked once.
+//! The behaviour of the library and the program. One binary, because linking takes long.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test that cannot go on has failed")]
 

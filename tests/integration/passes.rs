@@ -1,4 +1,4 @@
-//! Properties of the passes themselves: energy, caustics at known places, independence of threads.
+//! Properties of the passes: energy, known positions of caustics, independence of threads.
 
 use crate::support::{mean, session, world};
 use glam::DVec3;
@@ -13,9 +13,9 @@ fn caustic_photons(world: &World, iterations: u64) -> Vec<Photon> {
     (1..=iterations).flat_map(|i| batch(i).photons).collect()
 }
 
-/// C5: what enters a glass ball comes out of it: all light that is aimed at the ball arrives on the walls around it.
+/// C5: a glass ball absorbs no light: all light that is aimed at the ball arrives on the walls around it.
 #[test]
-fn a_glass_ball_keeps_no_light() {
+fn a_glass_ball_conserves_energy() {
     let text = "[camera]\nposition = [0, 0, 3.5]\ntarget = [0, 0, 0]\nfov_y = 40\n[[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5
         [[material]]\nname = \"wall\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
         [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 1\nmaterial = \"glass\"
@@ -32,9 +32,9 @@ fn a_glass_ball_keeps_no_light() {
     }
 }
 
-/// What no ray comes near is not made ready: a patch outside the room.
+/// The tree of a patch is built when a ray first comes near: never for a patch outside the room.
 #[test]
-fn a_patch_that_no_ray_comes_near_is_never_prepared() {
+fn a_patch_out_of_reach_of_rays_is_not_prepared() {
     let patch = |name: &str, x: f64| {
         let row = |j: f64| (0..4).map(|i| format!("[{}, {}, 0]", x + 0.1 * f64::from(i), 0.1 * j)).collect::<Vec<_>>();
         let points = [0.0, 1.0, 2.0, 3.0].map(|j| format!("[{}]", row(j).join(", "))).join(", ");
@@ -115,7 +115,7 @@ fn splats(lamp: f64, scattering: &str) -> usize {
 }
 
 #[test]
-fn only_large_lamps_and_surfaces_begin_with_discs_for_caustics_in_view() {
+fn blurred_caustics_on_large_surfaces_begin_with_density_estimates() {
     let floor =
         "[[object]]\nname = \"f\"\ntype = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\nmaterial = \"w\"\n";
     let ball = |radius: f64| {
@@ -125,7 +125,7 @@ fn only_large_lamps_and_surfaces_begin_with_discs_for_caustics_in_view() {
     };
     assert_eq!((splats(0.5, floor), splats(0.5, &ball(0.5))), (0, 0));
     assert!(splats(1e-3, floor) > 100, "as small as a point");
-    assert!(splats(0.5, &ball(0.05)) > 10, "no large disc fits on so small a ball");
+    assert!(splats(0.5, &ball(0.05)) > 10, "the ball is too small for a large disc");
 }
 
 const MIXED: &str = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 40\nheight = 30
@@ -149,20 +149,20 @@ fn one_thread_and_many_give_the_same_bits() {
 }
 
 #[test]
-fn a_cancelled_iteration_leaves_nothing() {
+fn a_cancelled_iteration_leaves_the_film_unchanged() {
     let mut session = session(MIXED, 2);
     let before: FilmSums = session.film().clone();
     assert!(session.advance(Cancel::when(&|| true)).is_none(), "the iteration was cancelled");
     assert_eq!(*session.film(), before);
     session.advance(Cancel::NEVER).expect("never cancelled");
-    assert_eq!(session.film().image(), self::session(MIXED, 3).film().image(), "and the next one is the same as ever");
+    assert_eq!(session.film().image(), self::session(MIXED, 3).film().image(), "the next iteration has its usual bits");
 }
 
 #[test]
-fn a_draft_changes_nothing_and_resembles_the_picture() {
+fn a_draft_leaves_the_film_unchanged_and_resembles_the_picture() {
     let session = session(MIXED, 32);
     let before = session.film().clone();
-    let draft = session.draft(7, 2, Cancel::NEVER).expect("nobody cancels");
+    let draft = session.draft(7, 2, Cancel::NEVER).expect("never cancelled");
     assert_eq!(*session.film(), before);
     assert!(draft.draft && draft.generation == 7 && draft.iteration == 0);
     assert_eq!((draft.image.width, draft.image.height), (20, 15));

@@ -1,4 +1,4 @@
-//! What an edit does not touch is taken over: the very same trees and images, and the same picture as without them.
+//! An edited scene reuses the trees and images that the edit left alone, and the picture does not depend on reuse.
 
 use crate::support::advanced;
 use patchlight::engine::Session;
@@ -48,8 +48,8 @@ fn patches(world: &World) -> Vec<&Arc<Patch>> {
     patches.collect()
 }
 
-/// For each patch and for the texture, whether an edited scene's world shares it with the world before.
-fn shared(edit: impl Fn(&mut Scene)) -> ([bool; 3], bool) {
+/// For each patch and for the texture, whether the world of an edited scene reuses it from the world before.
+fn reused(edit: impl Fn(&mut Scene)) -> ([bool; 3], bool) {
     let folder: TempDir = tempfile::tempdir().unwrap();
     let before = scene(folder.path());
     let old = prepare(&before.scene, &before.location, None).expect("the scene can be prepared");
@@ -59,11 +59,11 @@ fn shared(edit: impl Fn(&mut Scene)) -> ([bool; 3], bool) {
     assert_ne!(before.scene, after.scene, "the edit changes something");
     let new = prepare(&after.scene, &after.location, Some(&old)).expect("the edited scene can be prepared");
     let (old_patches, new_patches) = (patches(&old), patches(&new));
-    let is_shared = [0, 1, 2].map(|k| Arc::ptr_eq(old_patches[k], new_patches[k]));
-    // The tree of a patch is built when a ray comes near; a shared one stays built.
-    assert_eq!([0, 1, 2].map(|k| new_patches[k].is_prepared()), is_shared);
+    let is_reused = [0, 1, 2].map(|k| Arc::ptr_eq(old_patches[k], new_patches[k]));
+    // The tree of a patch is built when a ray comes near; a reused tree stays built.
+    assert_eq!([0, 1, 2].map(|k| new_patches[k].is_prepared()), is_reused);
     let image = |world: &World| -> Arc<Image> { world.images().next().expect("the floor's texture").clone() };
-    (is_shared, Arc::ptr_eq(&image(&old), &image(&new)))
+    (is_reused, Arc::ptr_eq(&image(&old), &image(&new)))
 }
 
 fn bezier_point(scene: &mut Scene, object: usize, patch: usize) -> &mut glam::DVec3 {
@@ -72,48 +72,48 @@ fn bezier_point(scene: &mut Scene, object: usize, patch: usize) -> &mut glam::DV
 }
 
 #[test]
-fn a_moved_control_point_builds_its_own_patch_alone() {
-    assert_eq!(shared(|scene| bezier_point(scene, 0, 1).y += 0.1), ([true, false, true], true));
-    assert_eq!(shared(|scene| bezier_point(scene, 1, 0).y += 0.1), ([true, true, false], true));
+fn a_moved_control_point_rebuilds_its_patch_alone() {
+    assert_eq!(reused(|scene| bezier_point(scene, 0, 1).y += 0.1), ([true, false, true], true));
+    assert_eq!(reused(|scene| bezier_point(scene, 1, 0).y += 0.1), ([true, true, false], true));
 }
 
 #[test]
-fn materials_lights_and_the_camera_build_no_patch() {
+fn edits_of_materials_lights_and_the_camera_reuse_every_patch() {
     let all = ([true; 3], true);
     let repaint = |scene: &mut Scene| {
         let MaterialModel::Diffuse { albedo } = &mut scene.materials[2].model else { panic!("paper is diffuse") };
         *albedo = Color::Constant(Rgb::splat(0.9));
     };
-    assert_eq!(shared(repaint), all);
-    assert_eq!(shared(|scene| scene.objects[0].material = "glass".to_owned()), all);
-    assert_eq!(shared(|scene| scene.camera.position.x += 1.0), all);
+    assert_eq!(reused(repaint), all);
+    assert_eq!(reused(|scene| scene.objects[0].material = "glass".to_owned()), all);
+    assert_eq!(reused(|scene| scene.camera.position.x += 1.0), all);
     let move_light = |scene: &mut Scene| {
         let Emitter::Point { position, .. } = &mut scene.lights[0].emitter else { panic!("a point light") };
         position.x -= 1.0;
     };
-    assert_eq!(shared(move_light), all);
+    assert_eq!(reused(move_light), all);
     let add_material = |scene: &mut Scene| {
         let added = Material { name: "more".to_owned(), ..scene.materials[2].clone() };
         scene.materials.insert(0, added);
     };
-    assert_eq!(shared(add_material), all);
+    assert_eq!(reused(add_material), all);
 }
 
 #[test]
-fn only_another_reading_of_a_texture_decodes_it_again() {
-    assert_eq!(shared(|scene| scene.textures[0].encoding = Encoding::Linear), ([true; 3], false));
+fn a_texture_is_decoded_again_for_a_new_encoding_but_not_for_a_new_scale() {
+    assert_eq!(reused(|scene| scene.textures[0].encoding = Encoding::Linear), ([true; 3], false));
     let rescale = |scene: &mut Scene| {
         let MaterialModel::Diffuse { albedo: Color::Texture(texture) } = &mut scene.materials[0].model else {
             panic!("tiles have a texture")
         };
         texture.scale *= 2.0;
     };
-    assert_eq!(shared(rescale), ([true; 3], true));
+    assert_eq!(reused(rescale), ([true; 3], true));
 }
 
-/// Every edit's picture is the one that a world without a past gives.
+/// A world with reused trees and a world from scratch give the same bits.
 #[test]
-fn the_picture_does_not_depend_on_what_was_reused() {
+fn the_picture_does_not_depend_on_reuse() {
     let folder = tempfile::tempdir().unwrap();
     let file = scene(folder.path());
     let first = advanced(Session::prepare(&file, 1, None).expect("the scene can be prepared"), 1);

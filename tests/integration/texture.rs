@@ -71,7 +71,7 @@ fn interreflection(file: &SceneFile, side: u32, iterations: u64) -> LinearImage 
 }
 
 #[test]
-fn all_that_a_pixel_sees_of_a_texture_and_its_relief_counts() {
+fn coarse_pixels_average_the_texture_and_the_relief_that_they_cover() {
     let folder = tempfile::tempdir().unwrap();
     write_textures(folder.path());
     std::fs::write(folder.path().join("tiles.toml"), SCENE).unwrap();
@@ -94,6 +94,6 @@ fn all_that_a_pixel_sees_of_a_texture_and_its_relief_counts() {
     // Both know the floor to less than 1 %.
     assert!((total / total_fine - 1.0).abs() < 0.015, "{total} against {total_fine}");
     let noise = (squares / 256.0).sqrt();
-    // 0.061; one place for each pixel in an iteration leaves 0.105.
+    // 0.061; one point of the texture for each pixel in an iteration leaves 0.105.
     assert!(noise < 0.08, "{noise} in a pixel");
 }

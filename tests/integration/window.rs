@@ -1,7 +1,7 @@
-//! The real window on a display of its own: started, dragged in and watched as a person would.
+//! The real window on a display of its own: a mouse drags in it, and screenshots show its picture.
 //!
-//! It takes the Debian packages xvfb, xdotool, imagemagick and the libraries of a window; where one is missing the
-//! tests fail and say which.
+//! It takes the Debian packages xvfb, xdotool, imagemagick and the libraries of a window; where a package is missing the
+//! tests fail and name it.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -9,10 +9,10 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_patchlight");
-/// A loaded machine may take as long; a quiet one needs a few seconds.
+/// Timeout of a wait, for a loaded machine; an idle machine needs a few seconds.
 const PATIENCE: Duration = Duration::from_secs(120);
 const SCREEN: (u32, u32) = (1280, 800);
-/// Half the side of the part of the picture that is compared, screen pixels about the middle of the screen.
+/// Half the side of the compared square in the middle of the screen, screen pixels.
 const HALF: u32 = 300;
 
 /// A bent sheet over a floor. Its corner P[0][0] is in the middle of the picture, before the black background: where it
@@ -66,7 +66,7 @@ struct Running(Child);
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // It may have ended by itself; then there is nothing to kill.
+        // Fails where the process has already ended.
         self.0.kill().ok();
         self.0.wait().ok();
     }
@@ -117,7 +117,7 @@ impl Desktop {
             assert_eq!(program.0.try_wait().expect("the state of a child is known"), None, "the program ended");
             Some(self.xdotool(&["search", "--onlyvisible", "--name", "patchlight"])).filter(|found| !found.is_empty())
         });
-        // Without a window manager nothing else gives the window the keyboard.
+        // No window manager is there to focus the window.
         self.xdotool(&["windowfocus", "--sync", window.lines().next().unwrap_or_default()]);
         program
     }
@@ -132,7 +132,7 @@ impl Desktop {
 
     fn key(&self, key: &str) {
         self.xdotool(&["key", key]);
-        // The window draws what the key did in its next frames.
+        // The next frames of the window show the effect of the key.
         std::thread::sleep(Duration::from_millis(500));
     }
 
@@ -192,7 +192,7 @@ fn settled(desktop: &Desktop, limit: impl Fn(f64) -> f64) -> (Picture, Vec<f64>)
 }
 
 #[test]
-fn a_dragged_control_point_changes_the_picture_which_converges_again() {
+fn the_picture_follows_a_dragged_control_point_and_converges_again() {
     let folder = tempfile::tempdir().expect("a folder for the scene");
     let scene = folder.path().join("scene.toml");
     std::fs::write(&scene, SCENE).expect("the scene is written");
@@ -200,7 +200,7 @@ fn a_dragged_control_point_changes_the_picture_which_converges_again() {
     let _program = desktop.open(&scene);
     wait_for("picture in the window", || (desktop.picture().brightness() > 20.0).then_some(()));
 
-    // Without panels the picture is in the middle of the screen; without handles nothing but the picture is compared.
+    // Without panels the picture is in the middle of the screen; without handles the picture alone is compared.
     desktop.key("ctrl+b");
     desktop.key("h");
     let (before, _) = settled(&desktop, |_| 1.0);
@@ -225,14 +225,14 @@ fn a_dragged_control_point_changes_the_picture_which_converges_again() {
 }
 
 #[test]
-fn without_a_display_a_message_says_what_works() {
+fn without_a_display_a_message_names_the_commands_that_work() {
     let output =
         Command::new(PROGRAM).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").output();
     explains_itself(&output.expect("the program that was built starts"));
 }
 
 #[test]
-fn on_a_display_that_does_not_answer_a_message_says_what_works() {
+fn without_an_answer_of_the_display_a_message_names_the_commands_that_work() {
     let output = Command::new(PROGRAM).env("DISPLAY", ":54321").env_remove("WAYLAND_DISPLAY").output();
     explains_itself(&output.expect("the program that was built starts"));
 }
@@ -241,7 +241,7 @@ fn explains_itself(output: &Output) {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{message}");
     assert!(message.contains("apt install"), "the package: {message}");
-    assert!(message.contains("patchlight render"), "what works at once: {message}");
+    assert!(message.contains("patchlight render"), "a command that works: {message}");
     assert!(!message.contains("panicked"), "no panic: {message}");
     assert!(!message.contains(".rs:"), "no line of a source file: {message}");
 }
