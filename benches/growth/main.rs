@@ -9,7 +9,9 @@ use glam::DVec3;
 use patchlight::engine::Session;
 use patchlight::math::{Sampler, Stream};
 use patchlight::scene::{Emitter, Light, SceneFile, Shape};
-use patchlight::transport::{CameraBatch, Cancel, Maps, PhotonMap, Plan, camera_pass, gather, global_photon_pass};
+use patchlight::transport::{
+    CameraBatch, Cancel, Maps, PassInput, PhotonMap, Plan, camera_pass, gather, global_photon_pass,
+};
 use patchlight::world::prepare;
 use rayon::prelude::*;
 use std::path::Path;
@@ -165,17 +167,16 @@ fn photons() {
     let mut plan = Plan::new(&world);
     const ITERATION: u64 = SMALL_ITERATIONS + 1;
     let bands = plan.bands(ITERATION).into_par_iter();
-    let seen = bands.map(|rows| camera_pass(&world, &plan, &rows, 1, ITERATION, Cancel::NEVER));
+    let seen = bands.map(|rows| camera_pass(&PassInput::uncancelled(&world, &plan, 1, ITERATION), &rows));
     let seen: Vec<CameraBatch> = seen.collect::<Option<_>>().expect("never cancelled");
     for paths in [10_000, 100_000, 1_000_000, 10_000_000] {
         plan.global_paths = vec![paths];
-        let (photon_pass, batch) = seconds(|| global_photon_pass(&world, &plan, 1, ITERATION, Cancel::NEVER));
+        let input = PassInput::uncancelled(&world, &plan, 1, ITERATION);
+        let (photon_pass, batch) = seconds(|| global_photon_pass(&input));
         let batch = batch.expect("never cancelled");
         let (build, global) = seconds(|| PhotonMap::build(&batch.photons));
         let maps = Maps { global, ..Maps::default() };
-        let gather = |batch: &CameraBatch| {
-            gather(&world, &plan, &maps, batch, 1, ITERATION, Cancel::NEVER).expect("never cancelled").0
-        };
+        let gather = |batch: &CameraBatch| gather(&input, &maps, batch).expect("never cancelled").points;
         let (gather, _) = seconds(|| seen.par_iter().map(gather).collect::<Vec<_>>());
         let (count, megabytes) = (batch.photons.len(), maps.global.memory_bytes() as f64 / f64::from(1 << 20));
         println!("| {paths} | {count} | {photon_pass:.3} | {build:.3} | {gather:.3} | {megabytes:.1} MB |");

@@ -6,7 +6,7 @@
 
 use patchlight::scene::{Location, SceneFile};
 use patchlight::transport::{
-    CameraBatch, Cancel, CausticPlan, Maps, PhotonMap, Plan, camera_pass, caustic_photon_pass, gather,
+    CameraBatch, CausticPlan, Maps, PassInput, PhotonMap, Plan, camera_pass, caustic_photon_pass, gather,
     global_photon_pass,
 };
 use patchlight::world::{World, prepare};
@@ -101,8 +101,9 @@ fn world(text: &str) -> World {
 /// The time of the passes of one iteration in seconds.
 fn iteration(world: &World, plan: &Plan) -> f64 {
     let start = Instant::now();
-    let caustic = caustic_photon_pass(world, plan, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
-    let global = global_photon_pass(world, plan, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
+    let input = PassInput::uncancelled(world, plan, 1, ITERATION);
+    let caustic = caustic_photon_pass(&input).expect("never cancelled");
+    let global = global_photon_pass(&input).expect("never cancelled");
     let maps = Maps {
         caustic: PhotonMap::build(&caustic.photons),
         global: PhotonMap::build(&global.photons),
@@ -110,8 +111,8 @@ fn iteration(world: &World, plan: &Plan) -> f64 {
         glossy: PhotonMap::build(&global.glossy),
     };
     let band = |rows| {
-        let seen: CameraBatch = camera_pass(world, plan, &rows, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
-        gather(world, plan, &maps, &seen, 1, ITERATION, Cancel::NEVER).expect("never cancelled").0.len()
+        let seen: CameraBatch = camera_pass(&input, &rows).expect("never cancelled");
+        gather(&input, &maps, &seen).expect("never cancelled").points.len()
     };
     let gathered: usize = plan.bands(ITERATION).into_par_iter().map(band).sum();
     std::hint::black_box(gathered);

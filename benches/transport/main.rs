@@ -8,7 +8,7 @@ use patchlight::geometry::{Aggregate, Primitive, Quad, Sphere};
 use patchlight::math::{Ray, Sampler, Stream, warp};
 use patchlight::scene::SceneFile;
 use patchlight::transport::{
-    Cancel, Photon, PhotonMap, Plan, Query, camera_pass, caustic_photon_pass, global_photon_pass,
+    PassInput, Photon, PhotonMap, Plan, Query, camera_pass, caustic_photon_pass, global_photon_pass,
 };
 use patchlight::world::{World, prepare};
 use rayon::prelude::*;
@@ -79,16 +79,15 @@ fn few_samples<'a>(c: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallT
 fn passes(c: &mut Criterion) {
     let (world, plan) = balls();
     let mut group = few_samples(c, "paths, all threads");
-    let global = global_photon_pass(&world, &plan, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
+    let input = PassInput::uncancelled(&world, &plan, 1, ITERATION);
+    let global = global_photon_pass(&input).expect("never cancelled");
     group.throughput(Throughput::Elements(global.counters.global_paths));
-    group.bench_function("interreflection", |b| {
-        b.iter(|| global_photon_pass(&world, &plan, 1, ITERATION, Cancel::NEVER))
-    });
-    let caustic = caustic_photon_pass(&world, &plan, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
+    group.bench_function("interreflection", |b| b.iter(|| global_photon_pass(&input)));
+    let caustic = caustic_photon_pass(&input).expect("never cancelled");
     group.throughput(Throughput::Elements(caustic.counters.caustic_paths));
-    group.bench_function("caustics", |b| b.iter(|| caustic_photon_pass(&world, &plan, 1, ITERATION, Cancel::NEVER)));
+    group.bench_function("caustics", |b| b.iter(|| caustic_photon_pass(&input)));
     group.throughput(Throughput::Elements(4 * plan.camera.pixel_count() as u64));
-    let seen = |rows| camera_pass(&world, &plan, &rows, 1, ITERATION, Cancel::NEVER).expect("never cancelled");
+    let seen = |rows| camera_pass(&input, &rows).expect("never cancelled");
     group.bench_function("camera", |b| b.iter(|| plan.bands(ITERATION).into_par_iter().map(seen).collect::<Vec<_>>()));
     group.finish();
 

@@ -9,6 +9,7 @@
 //! | `frame` | a picture and its statistics |
 //! | `convergence_rates` | how fast the noise of stratified samples falls |
 //! | `film_sums` | sums over iterations, and the error estimate |
+//! | `pass_meter` | time and work of passes |
 //! | `iteration` | one iteration: the main loop of the algorithm |
 //! | `session` | the rendering of one scene |
 //! | `shared` | the state that the caller and the worker share |
@@ -23,6 +24,7 @@ mod frame;
 mod handle;
 mod iteration;
 mod messages;
+mod pass_meter;
 mod session;
 mod shared;
 mod worker;

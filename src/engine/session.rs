@@ -2,10 +2,11 @@
 
 use super::film_sums::FilmSums;
 use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
-use super::iteration::{Iteration, render_iteration};
+use super::iteration::render_iteration;
+use super::pass_meter::{Pass, PassMeter, Work};
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Component, Contribution, Counters, FilmStatistics, Plan};
+use crate::transport::{Cancel, Component, Contribution, Counters, FilmStatistics, PassInput, Plan};
 use crate::world::{Camera, PrepareError, World, prepare};
 use std::sync::Arc;
 use std::time::Instant;
@@ -104,16 +105,20 @@ impl Session {
     pub fn advance(&mut self, cancel: Cancel) -> Option<()> {
         let start = Instant::now();
         let number = self.film.iterations() + 1;
-        let iteration = render_iteration(&self.world, &self.plan, self.seed, number, cancel);
-        let committed = iteration.map(|Iteration { contribution, work }| {
-            let commit = Instant::now();
-            self.commit(number, &contribution);
-            self.counters += work.counters;
-            self.passes += work.seconds;
-            self.passes.commit += commit.elapsed().as_secs_f64();
+        let meter = PassMeter::default();
+        let contribution = render_iteration(&self.input(&self.plan, number, cancel), &meter);
+        let committed = contribution.map(|contribution| {
+            meter.time(Pass::Commit, || self.commit(number, &contribution));
+            let Work { counters, seconds } = meter.work();
+            self.counters += counters;
+            self.passes += seconds;
         });
         self.seconds += start.elapsed().as_secs_f64();
         committed
+    }
+
+    fn input<'a>(&'a self, plan: &'a Plan, iteration: u64, cancel: Cancel<'a>) -> PassInput<'a> {
+        PassInput { world: &self.world, plan, seed: self.seed, iteration, cancel }
     }
 
     /// Adds an iteration to the film and to the measurements, and refines the plan where the schedule says so.
@@ -174,7 +179,9 @@ impl Session {
         let start = Instant::now();
         let plan = self.plan.draft(coarseness);
         let (width, height) = (plan.camera.width, plan.camera.height);
-        let Iteration { contribution, work } = render_iteration(&self.world, &plan, self.seed, 1, cancel)?;
+        let meter = PassMeter::default();
+        let contribution = render_iteration(&self.input(&plan, 1, cancel), &meter)?;
+        let work = meter.work();
         let stats = stats(&work.counters, work.seconds, start.elapsed().as_secs_f64());
         let Contribution { photons, samples, .. } = &contribution;
         let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());

@@ -31,6 +31,26 @@ pub struct Counters {
     pub dropped_samples: u64,
 }
 
+/// The result of a pass, which tells the work that the pass took.
+pub trait Counted {
+    /// The work that the result took.
+    fn counters(&self) -> Counters;
+}
+
+/// The result of a pass that may be cancelled: no work when cancelled.
+impl<T: Counted> Counted for Option<T> {
+    fn counters(&self) -> Counters {
+        self.as_ref().map_or_else(Counters::default, T::counters)
+    }
+}
+
+/// The results of two passes.
+impl<A: Counted, B: Counted> Counted for (A, B) {
+    fn counters(&self) -> Counters {
+        [self.0.counters(), self.1.counters()].into_iter().sum()
+    }
+}
+
 impl Sum for Counters {
     fn sum<I: Iterator<Item = Self>>(counters: I) -> Self {
         counters.fold(Self::default(), |mut sum, counters| {

@@ -15,12 +15,12 @@
 //! Light that a Phong lobe shows belongs to the component that it would without the lobe; photons in the lobe belong to
 //! interreflection.
 //!
-//! A pass is a function of the world, the plan, the seed and the number of the iteration, and returns owned data. `docs/method.md` holds the
+//! A pass is a function of the world, the plan, the seed and the number of the iteration ([`PassInput`]), and returns owned data. `docs/method.md` holds the
 //! equations. The folders are in the order in which light meets them; each uses only folders above it:
 //!
 //! | file | holds |
 //! |---|---|
-//! | `pass`, `counters` | arguments and work counters of all passes |
+//! | `pass`, `counters` | rows, cancellation and work counters of all passes |
 //! | `points/` | scattering at a point of a surface |
 //! | `lights/` | emission and sampling of lights |
 //! | `photons/` | photons and their maps |
@@ -39,13 +39,13 @@ mod points;
 #[cfg(test)]
 mod testing;
 
-pub use counters::Counters;
+pub use counters::{Counted, Counters};
 pub use density::{Bandwidth, BandwidthDifference, FilmStatistics, PixelSamples};
 pub use lights::{LightSampler, ProjectionMap};
 pub use pass::{Cancel, Rows};
 pub use passes::{
-    Band, CameraBatch, CausticPhotons, Contribution, Gathered, LobeSample, Splat, camera_pass, caustic_photon_pass,
-    gather, global_photon_pass, lobe_samples,
+    Band, CameraBatch, CausticPhotons, Contribution, Gathered, GatheredBatch, LobeSample, PassInput, Splat,
+    camera_pass, caustic_photon_pass, gather, global_photon_pass, lobe_samples,
 };
 pub use photons::{GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query};
 pub use plan::{CausticPlan, Component, Plan, PlanItem, PlanNote, Radii};

@@ -2,7 +2,7 @@
 
 use crate::support::{photon_radiance, session_of_seed, world};
 use glam::{DVec2, DVec3};
-use patchlight::transport::{Cancel, Plan, camera_pass, lobe_samples};
+use patchlight::transport::{PassInput, Plan, camera_pass, lobe_samples};
 use std::f64::consts::{PI, TAU};
 
 /// Half a side of the square spot about (2, 1.2, 0), which looks to -x.
@@ -131,8 +131,9 @@ fn pixels_at_edges_neither_give_nor_take_lobe_samples() {
     let world = world(&text);
     let plan = Plan::new(&world);
     let rows = 0..SIZE;
-    let seen = camera_pass(&world, &plan, &rows, 1, 4, Cancel::NEVER).expect("never cancelled");
-    let lobes = lobe_samples(&world, &plan, &seen.visible_points, &rows, 4);
+    let input = PassInput::uncancelled(&world, &plan, 1, 4);
+    let seen = camera_pass(&input, &rows).expect("never cancelled");
+    let lobes = lobe_samples(&input, &seen.visible_points, &rows);
     let met =
         |pixel: usize| seen.visible_points.iter().filter(|p| p.pixel as usize == pixel && p.seen_directly).count();
     let edges: Vec<usize> = (0..lobes.len()).filter(|&k| seen.samples[k].is_heterogeneous).collect();

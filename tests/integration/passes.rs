@@ -4,12 +4,12 @@ use crate::support::{mean, session, world};
 use glam::DVec3;
 use patchlight::engine::FilmSums;
 use patchlight::geometry::Primitive;
-use patchlight::transport::{Cancel, Photon, Plan, camera_pass, caustic_photon_pass, global_photon_pass};
+use patchlight::transport::{Cancel, PassInput, Photon, Plan, camera_pass, caustic_photon_pass, global_photon_pass};
 use patchlight::world::World;
 
 fn caustic_photons(world: &World, iterations: u64) -> Vec<Photon> {
     let plan = Plan::new(world);
-    let batch = |i| caustic_photon_pass(world, &plan, 1, i, Cancel::NEVER).expect("never cancelled");
+    let batch = |i| caustic_photon_pass(&PassInput::uncancelled(world, &plan, 1, i)).expect("never cancelled");
     (1..=iterations).flat_map(|i| batch(i).photons).collect()
 }
 
@@ -52,8 +52,9 @@ fn a_patch_out_of_reach_of_rays_is_not_prepared() {
     let plan = Plan::new(&world);
     for i in 1..=4 {
         let rows = 0..world.camera.height;
-        let seen = camera_pass(&world, &plan, &rows, 1, i, Cancel::NEVER).expect("never cancelled");
-        let photons = global_photon_pass(&world, &plan, 1, i, Cancel::NEVER).expect("never cancelled");
+        let input = PassInput::uncancelled(&world, &plan, 1, i);
+        let seen = camera_pass(&input, &rows).expect("never cancelled");
+        let photons = global_photon_pass(&input).expect("never cancelled");
         assert!(!seen.visible_points.is_empty() && photons.counters.global_paths > 0);
     }
     let patches = world.aggregate.primitives().iter().filter_map(|primitive| match primitive {
@@ -111,7 +112,8 @@ fn splats(lamp: f64, scattering: &str) -> usize {
         [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.5\nmaterial = \"glass\"
         [[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = {lamp}\nradiance = [1, 1, 1]\n{scattering}"
     ));
-    caustic_photon_pass(&world, &Plan::new(&world), 1, 4, Cancel::NEVER).expect("never cancelled").splats.len()
+    let plan = Plan::new(&world);
+    caustic_photon_pass(&PassInput::uncancelled(&world, &plan, 1, 4)).expect("never cancelled").splats.len()
 }
 
 #[test]

@@ -5,7 +5,8 @@ use patchlight::film::LinearImage;
 use patchlight::math::Rgb;
 use patchlight::scene::{Location, SceneFile};
 use patchlight::transport::{
-    Band, Cancel, Contribution, Maps, Plan, Rows, camera_pass, caustic_photon_pass, gather, global_photon_pass,
+    Band, Cancel, Contribution, Maps, PassInput, Plan, Rows, camera_pass, caustic_photon_pass, gather,
+    global_photon_pass,
 };
 use patchlight::world::{World, prepare};
 use rayon::prelude::*;
@@ -89,14 +90,14 @@ pub(crate) fn patchlight(dir: &Path, arguments: &[&str]) -> Output {
 
 /// Radiance from photons in one iteration of a plan, pixel by pixel.
 pub(crate) fn photon_radiance(world: &World, plan: &Plan, seed: u64, iteration: u64) -> Vec<Rgb> {
-    let never = Cancel::NEVER;
-    let global = global_photon_pass(world, plan, seed, iteration, never).expect("never cancelled");
-    let caustic = caustic_photon_pass(world, plan, seed, iteration, never).expect("never cancelled");
+    let input = PassInput::uncancelled(world, plan, seed, iteration);
+    let global = global_photon_pass(&input).expect("never cancelled");
+    let caustic = caustic_photon_pass(&input).expect("never cancelled");
     let maps = Maps::build(&caustic.photons, [&global.photons, &global.indirect_caustics, &global.glossy]);
     let band = |rows: &Rows| {
-        let seen = camera_pass(world, plan, rows, seed, iteration, never).expect("never cancelled");
-        let (gathered, _) = gather(world, plan, &maps, &seen, 1, iteration, never).expect("never cancelled");
-        Band::new(world, plan, rows, seen, &gathered, iteration)
+        let seen = camera_pass(&input, rows).expect("never cancelled");
+        let gathered = gather(&input, &maps, &seen).expect("never cancelled");
+        Band::new(&input, rows, seen, &gathered.points)
     };
     let bands: Vec<Band> = plan.bands(iteration).par_iter().map(band).collect();
     Contribution::new(&bands, &caustic.splats, plan.camera.width).photons

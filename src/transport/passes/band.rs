@@ -3,13 +3,12 @@
 use super::camera::CameraBatch;
 use super::caustic_photons::Splat;
 use super::gather::Gathered;
+use super::input::PassInput;
 use super::lobe_reuse::{LobeSample, lobe_samples, reuse_lobes};
 use crate::math::Rgb;
 use crate::transport::density::{BandwidthDifference, PixelSamples};
 use crate::transport::pass::Rows;
 use crate::transport::photons::path_blocks::concat;
-use crate::transport::plan::Plan;
-use crate::world::World;
 
 /// One band's result, before neighbours reuse lobe samples.
 #[derive(Clone, Debug)]
@@ -38,18 +37,11 @@ pub struct Contribution {
 impl Band {
     /// Adds up the light of each pixel of some rows; `gathered` holds the light at each visible point of `seen`, in the order of the points.
     /// Light that a directly seen Phong lobe shows goes to the lobe's sample where neighbours reuse it.
-    pub fn new(
-        world: &World,
-        plan: &Plan,
-        rows: &Rows,
-        seen: CameraBatch,
-        gathered: &[Gathered],
-        iteration: u64,
-    ) -> Self {
-        let (pixels, first) = (seen.samples.len(), rows.start * plan.camera.width);
+    pub fn new(input: &PassInput, rows: &Rows, seen: CameraBatch, gathered: &[Gathered]) -> Self {
+        let (pixels, first) = (seen.samples.len(), rows.start * input.plan.camera.width);
         let mut photons = vec![Rgb::ZERO; pixels];
         let mut differences = vec![BandwidthDifference::default(); pixels];
-        let mut lobes = lobe_samples(world, plan, &seen.visible_points, rows, iteration);
+        let mut lobes = lobe_samples(input, &seen.visible_points, rows);
         for (point, found) in seen.visible_points.iter().zip(gathered) {
             let index = (point.pixel - first) as usize;
             differences[index] += found.difference;
@@ -84,9 +76,10 @@ impl Contribution {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::transport::plan::Plan;
     use crate::transport::points::VisiblePoint;
     use crate::transport::testing::{self, lamp, quad, visible_point};
-    use crate::world::{Lobe, Scattering};
+    use crate::world::{Lobe, Scattering, World};
     use glam::Vec3;
 
     /// A glossy floor with a wall, on a film of 2 x 2 pixels.
@@ -109,7 +102,7 @@ mod tests {
         let gathered =
             |&(_, radiance): &(VisiblePoint, f32)| Gathered { radiance: Rgb::splat(radiance), ..Gathered::default() };
         let gathered: Vec<Gathered> = found.iter().map(gathered).collect();
-        Band::new(world, &Plan::new(world), rows, seen, &gathered, 4)
+        Band::new(&PassInput::uncancelled(world, &Plan::new(world), 1, 4), rows, seen, &gathered)
     }
 
     fn at(pixel: u32) -> VisiblePoint {

@@ -3,13 +3,13 @@
 //! Where the camera sees that surface directly and the caustic is sharp, the photon is splatted to the film (light tracing). Density
 //! estimates serve caustics that are smooth, or seen in mirrors and through glass.
 
+use super::input::PassInput;
 use crate::math::{Ray, Rgb, Sampler, Stream};
-use crate::transport::counters::Counters;
+use crate::transport::counters::{Counted, Counters};
 use crate::transport::lights::emission::{self, Emission};
-use crate::transport::pass::Cancel;
 use crate::transport::photons::Photon;
 use crate::transport::photons::path_blocks::{concat, path_blocks};
-use crate::transport::plan::{CausticPlan, Plan};
+use crate::transport::plan::CausticPlan;
 use crate::transport::points::bsdf::{self, MAX_SHADING_FACTOR};
 use crate::transport::points::{Media, SpecularEvent, Vertex, roulette};
 use crate::world::{Surface, World};
@@ -40,30 +40,30 @@ pub struct CausticPhotons {
     pub counters: Counters,
 }
 
-/// The caustic photons of iteration `iteration` (from 1), in the order of their paths; `None` when cancelled. Empty for a plan without
+impl Counted for CausticPhotons {
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+/// The caustic photons of an iteration, in the order of their paths; `None` when cancelled. Empty for a plan without
 /// caustics.
-pub fn caustic_photon_pass(
-    world: &World,
-    plan: &Plan,
-    seed: u64,
-    iteration: u64,
-    cancel: Cancel,
-) -> Option<CausticPhotons> {
+pub fn caustic_photon_pass(input: &PassInput) -> Option<CausticPhotons> {
+    let PassInput { plan, iteration, .. } = *input;
     let Some(caustics) = &plan.caustics else { return Some(CausticPhotons::default()) };
     let paths = |&count: &u64| plan.paths(count, iteration);
     let to_map = plan.needs_caustic_map(iteration);
     let blocks: Vec<CausticPhotons> = path_blocks(caustics.paths.iter().map(paths))
         .into_par_iter()
         .map(|block| {
-            let mut tracer = CausticTracer::new(world, plan, caustics, iteration, to_map);
+            let mut tracer = CausticTracer::new(input, caustics, to_map);
             let paths = paths(&caustics.paths[block.light]);
             let count = paths.end - paths.start;
             // One sequence over all iterations: its points keep filling each other's gaps.
             for index in block.paths.clone() {
-                let sampler = Sampler::new(seed, plan.stream(Stream::CausticPhoton), block.light as u64, index);
-                tracer.trace(block.light, count, sampler);
+                tracer.trace(block.light, count, input.sampler(Stream::CausticPhoton, block.light as u64, index));
             }
-            (!cancel.is_cancelled()).then_some(tracer.found)
+            (!input.cancel.is_cancelled()).then_some(tracer.found)
         })
         .collect::<Option<_>>()?;
     Some(CausticPhotons {
@@ -75,10 +75,9 @@ pub fn caustic_photon_pass(
 
 /// Traces caustic photon paths, which branch at glass.
 struct CausticTracer<'a> {
+    input: &'a PassInput<'a>,
     world: &'a World,
-    plan: &'a Plan,
     caustics: &'a CausticPlan,
-    iteration: u64,
     to_map: bool,
     found: CausticPhotons,
     /// Branches of the present path still to follow.
@@ -95,8 +94,8 @@ struct Branch {
 }
 
 impl<'a> CausticTracer<'a> {
-    fn new(world: &'a World, plan: &'a Plan, caustics: &'a CausticPlan, iteration: u64, to_map: bool) -> Self {
-        Self { world, plan, caustics, iteration, to_map, found: CausticPhotons::default(), branches: Vec::new() }
+    fn new(input: &'a PassInput<'a>, caustics: &'a CausticPlan, to_map: bool) -> Self {
+        Self { input, world: input.world, caustics, to_map, found: CausticPhotons::default(), branches: Vec::new() }
     }
 
     /// Traces one of `path_count` paths of a light.
@@ -166,9 +165,10 @@ impl<'a> CausticTracer<'a> {
     /// radiance. Adds nothing where the pixel gathers directly seen caustics.
     fn splat(&mut self, flux: Rgb, vertex: &Vertex) {
         let Vertex { point, scattering, n_side, n_shade, wo: wi, .. } = vertex;
-        let Some(seen) = self.plan.camera.project(point.position) else { return };
+        let PassInput { plan, iteration, .. } = *self.input;
+        let Some(seen) = plan.camera.project(point.position) else { return };
         let primitive = &self.world.aggregate.primitives()[point.hit.primitive as usize];
-        if self.plan.gathers_visible_caustics(primitive, seen.pixel, self.iteration) {
+        if plan.gathers_visible_caustics(primitive, seen.pixel, iteration) {
             return;
         }
         let wo = seen.to_camera;
@@ -194,7 +194,7 @@ impl<'a> CausticTracer<'a> {
     /// Whether something stands between a vertex and the camera, in this direction.
     fn is_hidden(&mut self, vertex: &Vertex, to_camera: DVec3) -> bool {
         self.found.counters.shadow_rays += 1;
-        let sight = Ray::between(self.world.leave(&vertex.point, to_camera), self.plan.camera.position);
+        let sight = Ray::between(self.world.leave(&vertex.point, to_camera), self.input.plan.camera.position);
         self.world.aggregate.occluded(&sight)
     }
 }
@@ -202,6 +202,8 @@ impl<'a> CausticTracer<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::transport::pass::Cancel;
+    use crate::transport::plan::Plan;
     use crate::transport::testing::{self, lamp, quad};
     use glam::DVec2;
     use std::f64::consts::PI;
@@ -220,7 +222,7 @@ mod tests {
 
     fn found(world: &World, iterations: u64) -> Vec<CausticPhotons> {
         let plan = Plan::new(world);
-        let pass = |k| caustic_photon_pass(world, &plan, 1, 4 + k, Cancel::NEVER).expect("never cancelled");
+        let pass = |k| caustic_photon_pass(&PassInput::uncancelled(world, &plan, 1, 4 + k)).expect("never cancelled");
         (0..iterations).map(pass).collect()
     }
 
@@ -268,7 +270,8 @@ mod tests {
         assert_eq!(passes[0].counters, Counters::default());
         let world = lit_by_a_mirror(2);
         assert!(!found(&world, 1)[0].photons.is_empty(), "a mirror and the screen");
-        let cancelled = caustic_photon_pass(&world, &Plan::new(&world), 1, 4, Cancel::when(&|| true));
-        assert!(cancelled.is_none());
+        let plan = Plan::new(&world);
+        let cancelled = PassInput { cancel: Cancel::when(&|| true), ..PassInput::uncancelled(&world, &plan, 1, 4) };
+        assert!(caustic_photon_pass(&cancelled).is_none());
     }
 }

@@ -1,21 +1,20 @@
 //! The gather pass: photons to radiance, by density estimates at visible points.
 
 use super::camera::CameraBatch;
+use super::input::PassInput;
 use super::interleaving::Interleaving;
 use crate::math::lanes::simd_dispatch;
-use crate::math::{Lanes, Rgb, Sampler, Stream};
-use crate::transport::counters::Counters;
+use crate::math::{Lanes, Rgb, Stream};
+use crate::transport::counters::{Counted, Counters};
 use crate::transport::density::BandwidthDifference;
 use crate::transport::density::bandwidth::WIDER;
 use crate::transport::density::disc::Disc;
 use crate::transport::density::estimate::{self, is_diffuse, is_glossy};
 use crate::transport::density::visibility_polygon::{VisibilityPolygon, VisibilityQuery};
-use crate::transport::pass::Cancel;
 use crate::transport::photons::photon_map::Stack;
 use crate::transport::photons::{MapKind, Maps};
-use crate::transport::plan::{IterationRadii, Plan};
+use crate::transport::plan::IterationRadii;
 use crate::transport::points::{Facet, VisiblePoint, bsdf};
-use crate::world::World;
 use arrayvec::ArrayVec;
 
 /// Visible points between two checks whether the pass was cancelled.
@@ -30,27 +29,33 @@ pub struct Gathered {
     pub difference: BandwidthDifference,
 }
 
-/// The light at each visible point of a batch, in the order of the points, and the work done; `None` when cancelled. `iteration` counts
-/// from 1.
-pub fn gather(
-    world: &World,
-    plan: &Plan,
-    maps: &Maps,
-    seen: &CameraBatch,
-    seed: u64,
-    iteration: u64,
-    cancel: Cancel,
-) -> Option<(Vec<Gathered>, Counters)> {
+/// The result of the gather pass for a [`CameraBatch`].
+#[derive(Clone, Debug, Default)]
+pub struct GatheredBatch {
+    /// The light at each visible point, in the order of the points.
+    pub points: Vec<Gathered>,
+    /// Work done.
+    pub counters: Counters,
+}
+
+impl Counted for GatheredBatch {
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+/// The light that the photons of these maps bring to the visible points of a batch; `None` when cancelled.
+pub fn gather(input: &PassInput, maps: &Maps, seen: &CameraBatch) -> Option<GatheredBatch> {
     let points = seen.visible_points.as_slice();
-    let gatherer =
-        Gatherer { world, plan, maps, facets: &seen.facets, seed, iteration, radii: plan.radii_of(world, iteration) };
+    let radii = input.plan.radii_of(input.world, input.iteration);
+    let gatherer = Gatherer { input: *input, maps, facets: &seen.facets, radii };
     let mut stack = Stack::new();
     let interleaving = gatherer.interleaving(points);
     let mut counters = Counters { global_gathers: interleaving.gathering.len() as u64, ..Counters::default() };
     let mut irradiances = Vec::with_capacity(interleaving.gathering.len());
     for gathering in interleaving.gathering.chunks(POINTS_PER_BLOCK) {
         irradiance_block(&gatherer, points, gathering, &mut stack, &mut irradiances);
-        if cancel.is_cancelled() {
+        if input.cancel.is_cancelled() {
             return None;
         }
     }
@@ -59,11 +64,11 @@ pub fn gather(
         let shared = source.iter().map(|source| source.map(|source| irradiances[source as usize]));
         let shared: ArrayVec<Option<Rgb>, POINTS_PER_BLOCK> = shared.collect();
         gather_block(&gatherer, points, &shared, &mut stack, &mut counters, &mut gathered);
-        if cancel.is_cancelled() {
+        if input.cancel.is_cancelled() {
             return None;
         }
     }
-    Some((gathered, counters))
+    Some(GatheredBatch { points: gathered, counters })
 }
 
 simd_dispatch! {
@@ -101,12 +106,9 @@ simd_dispatch! {
 
 /// The input of density estimates.
 struct Gatherer<'a> {
-    world: &'a World,
-    plan: &'a Plan,
+    input: PassInput<'a>,
     maps: &'a Maps,
     facets: &'a [Facet],
-    seed: u64,
-    iteration: u64,
     radii: IterationRadii<'a>,
 }
 
@@ -124,7 +126,7 @@ impl Gatherer<'_> {
         if self.maps.global.is_empty() {
             return Interleaving::none(points.len());
         }
-        Interleaving::new(self.plan.interleaved_grid(self.iteration), points, |point| {
+        Interleaving::new(self.input.plan.interleaved_grid(self.input.iteration), points, |point| {
             self.radii.at(MapKind::Global, point)
         })
     }
@@ -157,7 +159,7 @@ impl Gatherer<'_> {
         counters: &mut Counters,
     ) -> Gathered {
         let mut found = Gathered::default();
-        let compares = self.plan.compares_bandwidths(point.pixel, self.iteration);
+        let compares = self.input.plan.compares_bandwidths(point.pixel, self.input.iteration);
         let estimates = self.estimates(point, compares);
         let largest = estimates.iter().fold(0.0, |largest, estimate| estimate.radius.max(largest));
         let polygon = self.visibility_polygon(point, largest * if compares { WIDER } else { 1.0 }, counters);
@@ -210,7 +212,7 @@ impl Gatherer<'_> {
 
     /// Whether points gather the photons of a map for their neighbours, too: interreflection, in a draft also indirect caustics.
     fn is_shared(&self, kind: MapKind) -> bool {
-        kind == MapKind::Global || (kind == MapKind::IndirectCaustic && self.plan.is_draft())
+        kind == MapKind::Global || (kind == MapKind::IndirectCaustic && self.input.plan.is_draft())
     }
 
     /// Whether a point reflects light of a map that holds photons.
@@ -225,10 +227,10 @@ impl Gatherer<'_> {
 
     /// Whether the picture shows the light of a map at a point: not where caustic photons are splatted.
     fn shows(&self, kind: MapKind, point: &VisiblePoint) -> bool {
-        let primitive = || &self.world.aggregate.primitives()[point.primitive as usize];
+        let primitive = || &self.input.world.aggregate.primitives()[point.primitive as usize];
         kind != MapKind::Caustic
             || !point.seen_directly
-            || self.plan.gathers_visible_caustics(primitive(), point.pixel, self.iteration)
+            || self.input.plan.gathers_visible_caustics(primitive(), point.pixel, self.input.iteration)
     }
 
     /// What a point sees of its surface within the reach (scene units), where an object stands on the surface.
@@ -241,11 +243,10 @@ impl Gatherer<'_> {
         if point.clearance.standing >= reach {
             return None;
         }
-        let stream = self.plan.stream(Stream::VisibilityPolygon);
-        let mut sampler = Sampler::new(self.seed, stream, u64::from(point.pixel), self.iteration);
+        let mut sampler = self.input.sampler(Stream::VisibilityPolygon, u64::from(point.pixel), self.input.iteration);
         let (polygon, rays) = VisibilityQuery {
-            world: self.world,
-            primitive: &self.world.aggregate.primitives()[point.primitive as usize],
+            world: self.input.world,
+            primitive: &self.input.world.aggregate.primitives()[point.primitive as usize],
             uv: point.uv,
             normal: point.n_side.as_dvec3(),
             reach,
@@ -258,7 +259,7 @@ impl Gatherer<'_> {
 
     #[inline(always)]
     fn disc<'v>(&self, point: &VisiblePoint, polygon: Option<&'v VisibilityPolygon>, radius: f64) -> Option<Disc<'v>> {
-        Disc::new(self.world, point, polygon, radius, self.plan.corrects_edges())
+        Disc::new(self.input.world, point, polygon, radius, self.input.plan.corrects_edges())
     }
 
     /// The radiance that a point adds to its pixel with the photons of a map. A Phong lobe reflects photons of the caustic and the glossy map
@@ -293,8 +294,9 @@ impl Gatherer<'_> {
 mod tests {
     use super::*;
     use crate::transport::photons::{Photon, photon};
+    use crate::transport::plan::Plan;
     use crate::transport::testing::{self, quad, visible_point};
-    use crate::world::{Lobe, Scattering};
+    use crate::world::{Lobe, Scattering, World};
     use glam::{DVec2, DVec3, Vec3};
     use std::f32::consts::PI;
 
@@ -342,8 +344,9 @@ mod tests {
 
     fn gathered_in(iteration: u64, world: &World, maps: &Maps, point: VisiblePoint) -> Rgb {
         let seen = CameraBatch { visible_points: vec![point], ..CameraBatch::default() };
-        let found = gather(world, &Plan::new(world), maps, &seen, 1, iteration, Cancel::NEVER);
-        found.expect("never cancelled").0[0].radiance
+        let plan = Plan::new(world);
+        let found = gather(&PassInput::uncancelled(world, &plan, 1, iteration), maps, &seen);
+        found.expect("never cancelled").points[0].radiance
     }
 
     /// Even photons give the radiance `throughput albedo / pi E`, in the middle of the floor and, where the disc is cut, at its edge.

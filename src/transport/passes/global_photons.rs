@@ -1,23 +1,16 @@
 //! The photon pass of interreflection.
 
-use crate::math::{Sampler, Stream};
-use crate::transport::pass::Cancel;
+use super::input::PassInput;
+use crate::math::Stream;
 use crate::transport::photons::GlobalPhotons;
 use crate::transport::photons::global_tracer::GlobalPhotonTracer;
 use crate::transport::photons::path_blocks::{concat, path_blocks};
-use crate::transport::plan::Plan;
-use crate::world::World;
 use rayon::prelude::*;
 
-/// The photons of interreflection of iteration `iteration` (from 1), in the order of their paths; `None` when cancelled. Empty for a plan
+/// The photons of interreflection of an iteration, in the order of their paths; `None` when cancelled. Empty for a plan
 /// without interreflection.
-pub fn global_photon_pass(
-    world: &World,
-    plan: &Plan,
-    seed: u64,
-    iteration: u64,
-    cancel: Cancel,
-) -> Option<GlobalPhotons> {
+pub fn global_photon_pass(input: &PassInput) -> Option<GlobalPhotons> {
+    let PassInput { world, plan, iteration, .. } = *input;
     let paths = |&count: &u64| plan.paths(count, iteration);
     let blocks: Vec<GlobalPhotons> = path_blocks(plan.global_paths.iter().map(paths))
         .into_par_iter()
@@ -26,10 +19,9 @@ pub fn global_photon_pass(
             let paths = paths(&plan.global_paths[block.light]);
             let count = paths.end - paths.start;
             for index in block.paths.clone() {
-                let sampler = Sampler::new(seed, plan.stream(Stream::GlobalPhoton), block.light as u64, index);
-                tracer.trace(block.light, count, sampler);
+                tracer.trace(block.light, count, input.sampler(Stream::GlobalPhoton, block.light as u64, index));
             }
-            (!cancel.is_cancelled()).then_some(tracer.stored)
+            (!input.cancel.is_cancelled()).then_some(tracer.stored)
         })
         .collect::<Option<_>>()?;
     let (photons, (indirect_caustics, glossy)) = rayon::join(
@@ -43,7 +35,10 @@ pub fn global_photon_pass(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::transport::pass::Cancel;
+    use crate::transport::plan::Plan;
     use crate::transport::testing::{self, lamp, sphere};
+    use crate::world::World;
     use std::f64::consts::PI;
 
     fn closed_room() -> World {
@@ -59,7 +54,8 @@ mod tests {
         let plan = Plan::new(&world);
         let mut paths = Vec::new();
         for iteration in [1, 2, 3, 4, 9] {
-            let found = global_photon_pass(&world, &plan, 1, iteration, Cancel::NEVER).expect("never cancelled");
+            let input = PassInput::uncancelled(&world, &plan, 1, iteration);
+            let found = global_photon_pass(&input).expect("never cancelled");
             let flux = found.photons.iter().map(|photon| f64::from(photon.flux.x)).sum::<f64>() / (4.0 * PI);
             let count = found.counters.global_paths;
             // Two arrivals a path with a deviation of 1/2 each, at most all correlated.
@@ -75,10 +71,12 @@ mod tests {
         let world = closed_room();
         let plan = Plan::new(&world);
         let first = |iteration| {
-            let found = global_photon_pass(&world, &plan, 1, iteration, Cancel::NEVER).expect("never cancelled");
+            let input = PassInput::uncancelled(&world, &plan, 1, iteration);
+            let found = global_photon_pass(&input).expect("never cancelled");
             found.photons[0].position
         };
         assert!(first(4) == first(4) && first(4) != first(5));
-        assert!(global_photon_pass(&world, &plan, 1, 4, Cancel::when(&|| true)).is_none(), "cancelled");
+        let cancelled = PassInput { cancel: Cancel::when(&|| true), ..PassInput::uncancelled(&world, &plan, 1, 4) };
+        assert!(global_photon_pass(&cancelled).is_none());
     }
 }

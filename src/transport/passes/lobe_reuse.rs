@@ -3,11 +3,11 @@
 //! nearer than the distance over which the lobe blurs the nearest object. The greatest distance of a neighbour shrinks with the
 //! iterations, so that the added blur vanishes.
 
+use super::input::PassInput;
 use crate::math::Rgb;
 use crate::transport::pass::Rows;
-use crate::transport::plan::Plan;
 use crate::transport::points::{LEAST_COS_OF_NEIGHBOURS, VisiblePoint};
-use crate::world::{Lobe, World};
+use crate::world::Lobe;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -30,31 +30,26 @@ pub struct LobeSample {
 
 /// The lobe samples of some rows, row by row, without radiance yet. `None` at edges, on textured surfaces, on patches, whose own curves
 /// are near, and where even adjacent pixels are too far; an empty list where no photons are gathered or no surface has a uniform lobe.
-pub fn lobe_samples(
-    world: &World,
-    plan: &Plan,
-    points: &[VisiblePoint],
-    rows: &Rows,
-    iteration: u64,
-) -> Vec<Option<LobeSample>> {
+pub fn lobe_samples(input: &PassInput, points: &[VisiblePoint], rows: &Rows) -> Vec<Option<LobeSample>> {
+    let plan = input.plan;
     if !(plan.reuses_lobes && plan.gathers()) {
         return Vec::new();
     }
     let width = plan.camera.width;
     let mut lobes = vec![None; rows.len() * width as usize];
     for point in points.iter().filter(|point| point.seen_directly && !point.on_an_edge) {
-        lobes[(point.pixel - rows.start * width) as usize] = lobe_sample(world, plan, point, iteration);
+        lobes[(point.pixel - rows.start * width) as usize] = lobe_sample(input, point);
     }
     lobes
 }
 
-fn lobe_sample(world: &World, plan: &Plan, point: &VisiblePoint, iteration: u64) -> Option<LobeSample> {
+fn lobe_sample(input: &PassInput, point: &VisiblePoint) -> Option<LobeSample> {
     let Lobe::Phong { exponent, .. } = point.scattering.lobe else { return None };
-    if !world.has_uniform_lobe(point.primitive) {
+    if !input.world.has_uniform_lobe(point.primitive) {
         return None;
     }
     let footprint = f64::from(point.footprint);
-    let reach = plan.lobe_reach(footprint, point.clearance, exponent, iteration);
+    let reach = input.plan.lobe_reach(footprint, point.clearance, exponent, input.iteration);
     let window = (reach / footprint) as u32;
     (window > 0).then_some(LobeSample {
         radiance: Rgb::ZERO,

@@ -2,6 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `input` | the input that all passes have in common |
 //! | `caustic_photons` | the caustic photon pass: light to mirrors and glass, to the film or the caustic map |
 //! | `global_photons` | the photon pass of interreflection |
 //! | `camera/` | the camera pass: direct light and visible points |
@@ -15,12 +16,14 @@ mod camera;
 mod caustic_photons;
 mod gather;
 mod global_photons;
+mod input;
 mod interleaving;
 mod lobe_reuse;
 
 pub use band::{Band, Contribution};
 pub use camera::{CameraBatch, camera_pass};
 pub use caustic_photons::{CausticPhotons, Splat, caustic_photon_pass};
-pub use gather::{Gathered, gather};
+pub use gather::{Gathered, GatheredBatch, gather};
 pub use global_photons::global_photon_pass;
+pub use input::PassInput;
 pub use lobe_reuse::{LobeSample, lobe_samples};

@@ -2,7 +2,7 @@
 
 use super::photon::Photon;
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
-use crate::transport::counters::Counters;
+use crate::transport::counters::{Counted, Counters};
 use crate::transport::lights::emission::{self, Emission};
 use crate::transport::points::{GlossyMis, Media, SpecularEvent, Vertex, bsdf};
 use crate::world::{Lobe, Surface, World};
@@ -22,6 +22,12 @@ pub struct GlobalPhotons {
     pub glossy: Vec<Photon>,
     /// Work done.
     pub counters: Counters,
+}
+
+impl Counted for GlobalPhotons {
+    fn counters(&self) -> Counters {
+        self.counters
+    }
 }
 
 /// Traces photon paths and stores their photons.

@@ -2,7 +2,7 @@
 
 use super::photon::Photon;
 use super::photon_map::PhotonMap;
-use crate::transport::counters::Counters;
+use crate::transport::counters::{Counted, Counters};
 
 /// The photon maps of an iteration.
 #[derive(Clone, Debug, Default)]
@@ -26,9 +26,11 @@ impl Maps {
             rayon::join(|| PhotonMap::build(global), || small.map(PhotonMap::build));
         Self { caustic, global, indirect_caustic, glossy }
     }
+}
 
-    /// The number of maps that hold photons, as a counter.
-    pub fn counters(&self) -> Counters {
+/// Counts the maps that hold photons.
+impl Counted for Maps {
+    fn counters(&self) -> Counters {
         let built = MapKind::ALL.into_iter().filter(|kind| !self[*kind].is_empty()).count();
         Counters { map_builds: built as u64, ..Counters::default() }
     }

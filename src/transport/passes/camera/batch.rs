@@ -1,4 +1,4 @@
-use crate::transport::counters::Counters;
+use crate::transport::counters::{Counted, Counters};
 use crate::transport::density::PixelSamples;
 use crate::transport::points::{Facet, VisiblePoint};
 
@@ -14,4 +14,10 @@ pub struct CameraBatch {
     pub samples: Vec<PixelSamples>,
     /// Work done.
     pub counters: Counters,
+}
+
+impl Counted for CameraBatch {
+    fn counters(&self) -> Counters {
+        self.counters
+    }
 }

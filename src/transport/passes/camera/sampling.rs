@@ -6,9 +6,8 @@ use super::tracer::CameraTracer;
 use crate::geometry::Hit;
 use crate::math::{LANES, Ray, Sampler, Stream};
 use crate::transport::density::PixelSamples;
-use crate::transport::pass::{Cancel, Rows};
-use crate::transport::plan::Plan;
-use crate::world::World;
+use crate::transport::pass::Rows;
+use crate::transport::passes::input::PassInput;
 use glam::DVec2;
 use std::ops::Range;
 
@@ -18,28 +17,22 @@ const SAMPLES_OF_EDGE: usize = 4;
 /// Columns of a tile; it has all rows of the pass.
 const TILE: u32 = 16;
 
-/// The camera samples of iteration `iteration` (from 1) for every pixel of some rows, and the visible points that they leave; `None` when
+/// The camera samples of an iteration for every pixel of some rows, and the visible points that they leave; `None` when
 /// cancelled. The pass goes tile by tile: successive visible points are near each other, and so are their photons in memory.
-pub fn camera_pass(
-    world: &World,
-    plan: &Plan,
-    rows: &Rows,
-    seed: u64,
-    iteration: u64,
-    cancel: Cancel,
-) -> Option<CameraBatch> {
+pub fn camera_pass(input: &PassInput, rows: &Rows) -> Option<CameraBatch> {
+    let PassInput { world, plan, iteration, .. } = *input;
     let width = plan.camera.width;
     let pixels = rows.len() * width as usize;
     let batch = CameraBatch { samples: vec![PixelSamples::default(); pixels], ..CameraBatch::default() };
     let mut tracer = CameraTracer::new(world, plan, batch);
     let mut pixel = Pixel::new();
     for left in (0..width).step_by(TILE as usize) {
-        if cancel.is_cancelled() {
+        if input.cancel.is_cancelled() {
             return None;
         }
         for row in rows.clone() {
             let columns = left..(left + TILE).min(width);
-            let mut first_rays = trace_first_rays(world, plan, row, columns.clone(), seed, iteration);
+            let mut first_rays = trace_first_rays(input, row, columns.clone());
             tracer.batch.counters.rays += first_rays.len() as u64;
             let mut rest = first_rays.as_mut_slice();
             for column in columns {
@@ -47,7 +40,7 @@ pub fn camera_pass(
                 let count = plan.camera_samples(pixel.index, iteration).count();
                 let own = rest.split_off_mut(..count).unwrap_or_default();
                 let index = ((row - rows.start) * width + column) as usize;
-                tracer.batch.samples[index] = sample_pixel(&mut tracer, plan, &mut pixel, own, seed, iteration);
+                tracer.batch.samples[index] = sample_pixel(input, &mut tracer, &mut pixel, own);
             }
         }
     }
@@ -62,21 +55,15 @@ struct FirstRay {
 }
 
 /// The first rays of all samples of an iteration for some pixels of a row, pixel by pixel, traced in packets.
-fn trace_first_rays(
-    world: &World,
-    plan: &Plan,
-    row: u32,
-    columns: Range<u32>,
-    seed: u64,
-    iteration: u64,
-) -> Vec<FirstRay> {
+fn trace_first_rays(input: &PassInput, row: u32, columns: Range<u32>) -> Vec<FirstRay> {
+    let PassInput { world, plan, iteration, .. } = *input;
     let camera = &plan.camera;
     let samples = |column| plan.camera_samples(row * camera.width + column, iteration);
     let mut first_rays: Vec<FirstRay> = columns
         .flat_map(|column| samples(column).map(move |index| (column, index)))
         .map(|(column, index)| {
             let pixel = u64::from(row * camera.width + column);
-            let mut sampler = Sampler::new(seed, plan.stream(Stream::Camera), pixel, index);
+            let mut sampler = input.sampler(Stream::Camera, pixel, index);
             let ray = camera.ray(DVec2::new(f64::from(column), f64::from(row)) + sampler.next_2d());
             FirstRay { hit: None, sampler, ray }
         })
@@ -97,13 +84,12 @@ fn trace_first_rays(
 /// All samples of an iteration for one pixel. Where all samples meet one surface, one sample leaves visible points; at an edge several
 /// samples do. Density estimates at visible points are most of the work.
 fn sample_pixel(
+    input: &PassInput,
     tracer: &mut CameraTracer,
-    plan: &Plan,
     pixel: &mut Pixel,
     first_rays: &mut [FirstRay],
-    seed: u64,
-    iteration: u64,
 ) -> PixelSamples {
+    let PassInput { plan, iteration, .. } = *input;
     let count = first_rays.len();
     let surface = |first: &FirstRay| first.hit.map_or(0, |hit| hit.primitive + 1);
     let on_an_edge = first_rays.iter().any(|first| surface(first) != surface(&first_rays[0]));
@@ -115,7 +101,7 @@ fn sample_pixel(
         (true, false) => 1,
     };
     let groups = count / gathering.max(1);
-    let first = if gathering > 0 { gathering_group(plan, pixel.index, groups, seed, iteration) * gathering } else { 0 };
+    let first = if gathering > 0 { gathering_group(input, pixel.index, groups) * gathering } else { 0 };
     let first_point = tracer.batch.visible_points.len();
     for (index, FirstRay { sampler, ray, hit }) in first_rays.iter_mut().enumerate() {
         let gathers = (first..first + gathering).contains(&index);
@@ -135,13 +121,13 @@ fn sample_pixel(
     }
 }
 
-/// The index of the group of a pixel's samples that gathers photons, of `groups` groups. It is random, because a fixed choice would keep to one part of the pixel:
-/// every n-th point of the samples' sequence does.
-fn gathering_group(plan: &Plan, pixel: u32, groups: usize, seed: u64, iteration: u64) -> usize {
+/// The index of the group of a pixel's samples that gathers photons, of `groups` groups. It is random, because a fixed choice would keep
+/// to one region of the pixel: every n-th point of the samples' sequence does.
+fn gathering_group(input: &PassInput, pixel: u32, groups: usize) -> usize {
     if groups < 2 {
         return 0;
     }
-    let mut sampler = Sampler::new(seed, plan.stream(Stream::GatheringSample), u64::from(pixel), iteration);
+    let mut sampler = input.sampler(Stream::GatheringSample, u64::from(pixel), input.iteration);
     (sampler.next_1d() * groups as f64) as usize
 }
 
@@ -149,7 +135,10 @@ fn gathering_group(plan: &Plan, pixel: u32, groups: usize, seed: u64, iteration:
 mod tests {
     use super::*;
     use crate::math::Rgb;
+    use crate::transport::pass::Cancel;
+    use crate::transport::plan::Plan;
     use crate::transport::testing::{self, lamp, sphere};
+    use crate::world::World;
 
     /// A grey ball in a closed grey room: every camera path meets a diffuse surface.
     fn room() -> World {
@@ -164,7 +153,8 @@ mod tests {
         let world = room();
         let plan = Plan::new(&world);
         for iteration in [1, 3, 4, 5] {
-            let seen = camera_pass(&world, &plan, &(4..16), 1, iteration, Cancel::NEVER).expect("never cancelled");
+            let seen =
+                camera_pass(&PassInput::uncancelled(&world, &plan, 1, iteration), &(4..16)).expect("never cancelled");
             let mut sums = vec![Rgb::ZERO; 24 * 12];
             let mut edges = 0;
             for point in &seen.visible_points {
@@ -184,7 +174,8 @@ mod tests {
         let world = room();
         let plan = Plan::new(&world);
         for iteration in 1..=5 {
-            let seen = camera_pass(&world, &plan, &(0..20), 1, iteration, Cancel::NEVER).expect("never cancelled");
+            let seen =
+                camera_pass(&PassInput::uncancelled(&world, &plan, 1, iteration), &(0..20)).expect("never cancelled");
             let wanted = |pixel| plan.camera_samples(pixel, iteration).count() as u32;
             assert!((0..).zip(&seen.samples).all(|(pixel, samples)| samples.count == wanted(pixel)));
             let is_lit = |samples: &&PixelSamples| samples.sum.min_element() > 0.0;
@@ -192,16 +183,17 @@ mod tests {
         }
     }
 
-    /// Bands of rows are parts of the whole film: the same samples, wherever a band begins.
+    /// A pixel gets the same samples, wherever its band begins.
     #[test]
     fn rows_do_not_depend_on_the_band() {
         let world = room();
         let plan = Plan::new(&world);
         let samples = |rows: Range<u32>| {
-            let seen = camera_pass(&world, &plan, &rows, 1, 4, Cancel::NEVER).expect("never cancelled");
+            let seen = camera_pass(&PassInput::uncancelled(&world, &plan, 1, 4), &rows).expect("never cancelled");
             seen.samples.iter().map(|samples| samples.sum).collect::<Vec<_>>()
         };
         assert_eq!(samples(0..20), [samples(0..7), samples(7..20)].concat());
-        assert!(camera_pass(&world, &plan, &(0..20), 1, 4, Cancel::when(&|| true)).is_none(), "cancelled");
+        let cancelled = PassInput { cancel: Cancel::when(&|| true), ..PassInput::uncancelled(&world, &plan, 1, 4) };
+        assert!(camera_pass(&cancelled, &(0..20)).is_none());
     }
 }
