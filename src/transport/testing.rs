@@ -25,8 +25,7 @@ pub(super) fn vertex(world: &World, ray: &Ray) -> Vertex {
     let Surface::Object { object, material, .. } = world.surfaces[hit.primitive as usize] else {
         panic!("the ray meets a light")
     };
-    let point = world.surface_point(ray, hit);
-    Vertex::new(world, point, [object, material], -ray.direction, &mut Counters::default())
+    Vertex::at_hit(world, ray, hit, [object, material], &mut Counters::default())
 }
 
 /// A visible point of a white surface in the plane y = 0, at its origin.

@@ -120,12 +120,11 @@ impl<'a> CausticTracer<'a> {
         if branch.bounces == 0 && !self.world.materials[material as usize].is_specular() {
             return;
         }
-        let point = self.world.surface_point(&branch.ray, hit);
         branch.flux *= branch.media.transmittance(self.world, hit.t);
-        let wo = -branch.ray.direction;
-        let vertex = Vertex::new(self.world, point, [object, material], wo, &mut self.found.counters);
+        let ids = [object, material];
+        let vertex = Vertex::at_hit(self.world, &branch.ray, hit, ids, &mut self.found.counters);
         if vertex.scatters() && branch.bounces > 0 && branch.bounces < self.world.max_bounces {
-            self.arrive(&branch, &vertex);
+            self.leave_photon(&branch, &vertex);
         }
         if branch.bounces + 1 < self.world.max_bounces {
             self.branch_off(&branch, &vertex, weak, sampler);
@@ -149,7 +148,7 @@ impl<'a> CausticTracer<'a> {
     }
 
     /// Leaves a photon in the map, on the film, or both.
-    fn arrive(&mut self, branch: &Branch, vertex: &Vertex) {
+    fn leave_photon(&mut self, branch: &Branch, vertex: &Vertex) {
         if !branch.flux.is_finite() {
             self.found.counters.dropped_samples += 1;
             return;

@@ -108,9 +108,8 @@ impl<'a> GlobalPhotonTracer<'a> {
         counters.rays += 1;
         let hit = self.world.aggregate.closest_hit(&path.ray)?;
         let Surface::Object { object, material, .. } = self.world.surfaces[hit.primitive as usize] else { return None };
-        let point = self.world.surface_point(&path.ray, hit);
         path.flux *= path.media.transmittance(self.world, hit.t);
-        let vertex = Vertex::new(self.world, point, [object, material], -path.ray.direction, counters);
+        let vertex = Vertex::at_hit(self.world, &path.ray, hit, [object, material], counters);
         if path.bounces < self.world.max_bounces {
             self.store(path, &vertex);
         }
@@ -167,8 +166,9 @@ impl<'a> GlobalPhotonTracer<'a> {
     }
 }
 
-/// Samples the diffuse part, the lobe or absorption in proportion to the flux that each would leave (Russian roulette, which keeps
-/// the flux of all photons about equal); returns the new direction, `None` for absorption.
+/// Samples diffuse reflection, the lobe or absorption in proportion to the flux that each would leave; returns the new direction, `None`
+/// for absorption. This Russian roulette keeps the flux of all photons about equal. It is not [`roulette`](crate::transport::points::roulette),
+/// which only ends paths below a threshold: here the same number also chooses the event.
 fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut Sampler) -> Option<DVec3> {
     let Vertex { scattering, n_side, n_shade, wo: wi, .. } = *vertex;
     let (u, choice): (DVec2, f64) = (sampler.next_2d(), sampler.next_1d());

@@ -1,4 +1,5 @@
 use super::bsdf;
+use crate::geometry::Hit;
 use crate::math::{Ray, Rgb};
 use crate::transport::counters::Counters;
 use crate::world::{Material, Scattering, SurfacePoint, World};
@@ -24,18 +25,20 @@ pub(in crate::transport) struct Vertex {
 }
 
 impl Vertex {
-    /// The vertex at a point where a path that came from `wo` met an object.
+    /// The vertex of a path whose ray met an object, given by the object's and the material's index. Camera paths, photons and caustic photons
+    /// make their vertices here.
     #[inline]
-    pub(in crate::transport) fn new(
+    pub(in crate::transport) fn at_hit(
         world: &World,
-        point: SurfacePoint,
+        ray: &Ray,
+        hit: Hit,
         [object, material]: [u32; 2],
-        wo: DVec3,
         counters: &mut Counters,
     ) -> Self {
+        let point = world.surface_point(ray, hit);
         let (scattering, n_shade) = world.scattering(&point, material);
         counters.texture_lookups += u64::from(world.materials[material as usize].lookups());
-        Self { point, object, material, scattering, n_side: point.n_side(), n_shade, wo }
+        Self { point, object, material, scattering, n_side: point.n_side(), n_shade, wo: -ray.direction }
     }
 
     /// The material, whose textures gave the scattering function.
@@ -44,7 +47,7 @@ impl Vertex {
         &world.materials[self.material as usize]
     }
 
-    /// Whether the surface has a diffuse or glossy part here.
+    /// Whether the surface scatters light diffusely or in a Phong lobe here.
     #[inline]
     pub(in crate::transport) fn scatters(&self) -> bool {
         bsdf::scatters(&self.scattering)

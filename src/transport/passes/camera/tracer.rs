@@ -11,7 +11,7 @@ use crate::transport::plan::Plan;
 use crate::transport::points::{
     Clearance, Facet, Media, MisVertex, SpecularEvent, Vertex, ViewingLobe, VisiblePoint, bsdf, roulette,
 };
-use crate::world::{Lobe, Surface, SurfacePoint, World};
+use crate::world::{Lobe, Surface, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3};
 
@@ -105,18 +105,16 @@ impl<'a> CameraTracer<'a> {
         let Some(hit) = hit else {
             return branch.throughput * self.world.background;
         };
-        let point = self.world.surface_point(&branch.ray, hit);
         branch.throughput *= branch.media.transmittance(self.world, hit.t);
         branch.distance += hit.t;
-        let (object, material) = match self.world.surfaces[hit.primitive as usize] {
-            Surface::Light(light) => return self.emitted(light as usize, &branch, &point),
-            Surface::Object { object, material, .. } => (object, material),
+        let ids = match self.world.surfaces[hit.primitive as usize] {
+            Surface::Light(light) => return self.emitted(light as usize, &branch, hit),
+            Surface::Object { object, material, .. } => [object, material],
         };
         if branch.bounces >= self.world.max_bounces {
             return Rgb::ZERO;
         }
-        let wo = -branch.ray.direction;
-        let vertex = Vertex::new(self.world, point, [object, material], wo, &mut self.batch.counters);
+        let vertex = Vertex::at_hit(self.world, &branch.ray, hit, ids, &mut self.batch.counters);
         let is_textured_first = branch.bounces == 0 && vertex.material(self.world).lookups() > 0;
         if branch.bounces == 0 {
             self.add_first_vertex(&vertex, is_textured_first, pixel);
@@ -174,8 +172,9 @@ impl<'a> CameraTracer<'a> {
         }
     }
 
-    /// Radiance from a light's own surface.
-    fn emitted(&self, index: usize, branch: &Branch, point: &SurfacePoint) -> Rgb {
+    /// Radiance from a light's own surface, which a branch met.
+    fn emitted(&self, index: usize, branch: &Branch, hit: Hit) -> Rgb {
+        let point = self.world.surface_point(&branch.ray, hit);
         let light = &self.world.lights[index];
         let direction = branch.ray.direction;
         let radiance = branch.throughput * light.emitted(point.n_geom, -direction);
