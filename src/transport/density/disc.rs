@@ -11,6 +11,9 @@ use glam::{DVec2, DVec3};
 
 /// Least radius of a disc, in radii of the world: a smaller one would lose its photons to rounding.
 const LEAST_RADIUS: f64 = 1e-6;
+/// Least sine of the angle between a surface's derivatives. At a degenerate corner of a patch they are parallel up to rounding and span no
+/// parallelogram.
+const LEAST_SINE: f64 = 1e-9;
 
 /// Where a point gathers photons, and how they count.
 pub(in crate::transport) struct Disc<'v> {
@@ -108,7 +111,7 @@ fn edge_kernel(
     let (e0, e1) = plane_axes(dpdu, dpdv);
     let flat = |edge: DVec3| DVec2::new(edge.dot(e0), edge.dot(e1));
     let (u, v) = (flat(dpdu), flat(dpdv));
-    if u.perp_dot(v).abs() <= 1e-9 * u.length() * v.length() {
+    if u.perp_dot(v).abs() <= LEAST_SINE * u.length() * v.length() {
         return whole;
     }
     let Some(clipped) = Clipped::new(-(point.uv.x * u) - point.uv.y * v, u, v, open, radius) else {

@@ -12,6 +12,10 @@ pub(in crate::transport) fn full_integral(radius: f64) -> f64 {
 /// Least integral of the kernel over a clipped disc, relative to the whole disc.
 const LEAST_FRACTION: f64 = 0.02;
 
+/// Least determinant of the second moments over their squared trace (1/4 on a whole disc) for a kernel with a slope. Below it the disc is a
+/// sliver some 30 times as long as wide, whose few photons do not tell how irradiance changes across it.
+const LEAST_DETERMINANT: f64 = 1e-3;
+
 /// Moments of the kernel over a clipped disc: integrals of the kernel, of the kernel times `d`, and of the kernel times the products
 /// of the coordinates of `d`, the offset from the middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,8 +49,8 @@ impl Moments {
     /// The slope `s` for which the kernel times `1 + s d` has no first moment, and the integral of the product. With it an estimate over
     /// a clipped disc is unbiased for irradiance that changes linearly (local linear regression, \[FanGijbels96\]).
     fn linear(&self) -> (DVec2, f64) {
-        let scale = self.second.col(0).x + self.second.col(1).y;
-        if self.second.determinant() <= 1e-3 * scale * scale {
+        let trace = self.second.col(0).x + self.second.col(1).y;
+        if self.second.determinant() <= LEAST_DETERMINANT * trace * trace {
             return (DVec2::ZERO, self.zeroth);
         }
         let slope = -(self.second.inverse() * self.first);

@@ -23,7 +23,10 @@ const SAMPLES_PER_DEVIATION: f64 = 24.0;
 /// Most samples beyond the least number, in the mean over the film: a pixel then has four samples on average, as before
 /// the first refinement, and iterations do not become slower.
 const MOST_EXTRA_SAMPLES: f64 = 3.0;
-/// Most attempts to keep to [`MOST_EXTRA_SAMPLES`].
+/// Step by which samples per deviation are lowered to keep to [`MOST_EXTRA_SAMPLES`], in halvings: the sum of the counts falls by at most 8 %
+/// a step.
+const STEP: f64 = 0.125;
+/// Most steps; then every pixel gets the least number.
 const MOST_STEPS: usize = 100;
 /// The standard deviation is taken over a square of this many pixels to each side: an edge between two pixels may run through either
 /// of them, where few samples miss it.
@@ -143,8 +146,7 @@ impl SampleAllocation {
         let least: usize = samples.pixels.iter().map(least_count).sum();
         let most = least + (MOST_EXTRA_SAMPLES * samples.pixels.len() as f64) as usize;
         let too_many = |scale: f64| counts(scale).sum::<usize>() > most;
-        // Each step is an eighth of a doubling.
-        let scales = (0..).map(|step| SAMPLES_PER_DEVIATION * (-0.125 * f64::from(step)).exp2());
+        let scales = (0..).map(|step| SAMPLES_PER_DEVIATION * (-STEP * f64::from(step)).exp2());
         let scale = scales.take(MOST_STEPS).find(|&scale| !too_many(scale)).unwrap_or(0.0);
         let deviations_around = self::deviations(samples, false);
         let pixel = |((pixel, count), deviation): ((usize, usize), &f64)| {
@@ -186,7 +188,7 @@ fn nearest_power(wanted: f64) -> usize {
 }
 
 /// Relative standard deviation of the samples around each pixel: over the pixel's radiance where it is bright, over the mean of the
-/// picture where it is dark, as the eye judges. With or without the pixel's own samples.
+/// picture where it is dark: viewers judge noise by contrast. With or without the pixel's own samples.
 fn deviations(samples: &FilmSamples, with_own: bool) -> Vec<f64> {
     let pixels = &samples.pixels;
     let mean = pixels.iter().map(|p| f64::from(p.mean().element_sum())).sum::<f64>() / pixels.len() as f64;
@@ -215,15 +217,15 @@ mod tests {
     const SIZE: u32 = 16;
     const PIXELS: u32 = SIZE * SIZE;
 
-    /// Eight samples a pixel: one with the first radiance, the others with the second.
+    /// Eight samples a pixel: one with the first radiance, seven with the second.
     fn film(radiances: impl Fn(u32) -> [f32; 2], is_on_an_edge: impl Fn(u32) -> bool) -> FilmSamples {
         let mut film = FilmSamples::new(SIZE, SIZE);
         let pixel = |pixel| {
-            let [first, others] = radiances(pixel).map(Rgb::splat);
+            let [first, second] = radiances(pixel).map(Rgb::splat);
             let mut samples =
                 PixelSamples { surface: 1, is_heterogeneous: is_on_an_edge(pixel), ..PixelSamples::default() };
             samples.include(first);
-            (0..7).for_each(|_| samples.include(others));
+            (0..7).for_each(|_| samples.include(second));
             samples
         };
         film.add(&(0..PIXELS).map(pixel).collect::<Vec<_>>());

@@ -33,6 +33,8 @@ struct LightSample {
 
 /// Least distance at which lights shine, in radii of the scene: so the light of a lamp on a surface stays finite.
 const NEAREST: f64 = 1e-4;
+/// End of a shadow ray over the distance to the sampled point of a light: short of the light's own surface, which would hide the point.
+const SHADOW_RAY_END: f64 = 1.0 - 1e-9;
 
 impl DirectLight<'_> {
     /// Radiance from a vertex towards `wo` of light that comes straight from the lights, times the MIS weight of camera paths.
@@ -79,11 +81,8 @@ impl DirectLight<'_> {
             return Rgb::ZERO;
         }
         counters.shadow_rays += 1;
-        let shadow_ray = Ray {
-            // Short of the light's own surface.
-            t_max: 1.0 - 1e-9,
-            ..Ray::between(self.world.leave(&vertex.point, sample.wi), sample.position)
-        };
+        let shadow_ray =
+            Ray { t_max: SHADOW_RAY_END, ..Ray::between(self.world.leave(&vertex.point, sample.wi), sample.position) };
         if self.world.aggregate.occluded(&shadow_ray) { Rgb::ZERO } else { radiance }
     }
 

@@ -15,6 +15,9 @@ const SIDE: usize = 64;
 const PROBES_ALONG_SIDE: u64 = 2;
 /// Fraction of the paths that leave in all directions alike, in case the probes missed a specular surface (defensive sampling).
 const DEFENSIVE_FRACTION: f64 = 0.03;
+/// Diagonal of a primitive's bounding box over its distance from the light, below which all probe rays may miss the primitive. Two cells
+/// subtend about as many radians; a larger primitive does not slip between their probe rays.
+const SMALL_PRIMITIVE: f64 = 0.1;
 
 /// A density over the sphere of directions, constant in each cell of the equal-area octahedral square \[Clarberg08\].
 #[derive(Clone, Debug)]
@@ -132,7 +135,7 @@ fn dilated(marked: &[bool]) -> Vec<bool> {
     (0..SIDE * SIDE).map(|cell| near(cell / SIDE, cell % SIDE)).collect()
 }
 
-/// Cells towards specular primitives so small or so far that all probe rays may miss them.
+/// Cells towards specular primitives that appear smaller than [`SMALL_PRIMITIVE`].
 fn cells_of_small_objects(world: &World, light: &Light) -> Vec<usize> {
     let center = light.center();
     let mut cells = Vec::new();
@@ -142,8 +145,7 @@ fn cells_of_small_objects(world: &World, light: &Light) -> Vec<usize> {
         }
         let bounds = primitive.bounds();
         let offset = bounds.center() - center;
-        // Two cells subtend some 0.1 radians; a larger primitive does not slip between their probe rays.
-        if bounds.diagonal() < 0.1 * offset.length() {
+        if bounds.diagonal() < SMALL_PRIMITIVE * offset.length() {
             let square = octahedral::square_from_direction(offset.normalize()) * SIDE as f64;
             let (column, row) = (square.x as usize, square.y as usize);
             let range = |x: usize| x.saturating_sub(1)..(x + 2).min(SIDE);
@@ -158,7 +160,7 @@ mod tests {
     use super::*;
     use crate::math::chi_square::assert_has_density;
 
-    /// Marked cells share all probability but the defensive fraction, which is even over the sphere.
+    /// Marked cells divide all probability but the defensive fraction, which is even over the sphere.
     #[test]
     fn samples_have_their_density() {
         let cells: Vec<bool> = (0..SIDE * SIDE).map(|cell| cell % 37 == 0 || cell / SIDE > 60).collect();

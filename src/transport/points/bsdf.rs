@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 /// How a smooth dielectric interface divides unpolarised light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fresnel {
-    /// Reflected part of the light, 0 to 1.
+    /// Fraction of the light that is reflected, 0 to 1.
     pub reflectance: f64,
     /// Cosine between the refracted direction and the normal behind the interface; 0 at total reflection.
     pub cos_transmitted: f64,
@@ -45,16 +45,19 @@ pub(in crate::transport) fn refract(wo: DVec3, normal: DVec3, eta: f64, cos_tran
     ((cos / eta - cos_transmitted) * normal - wo / eta).normalize()
 }
 
+/// Cosine to the surface's normal that a direction bent back above the surface gains, so that a tangential direction leaves the surface.
+const LEAST_COS: f64 = 1e-6;
+
 /// The mirror image of `wo` about a shading normal, bent back to the side of `n_side` where the shading normal would send it into
 /// the surface.
 #[inline]
 pub(in crate::transport) fn reflect_above(wo: DVec3, n_shade: DVec3, n_side: DVec3) -> DVec3 {
     let wi = reflect(wo, n_shade);
     let depth = wi.dot(n_side);
-    if depth > 0.0 { wi } else { (wi - (2.0 * depth - 1e-6) * n_side).normalize() }
+    if depth > 0.0 { wi } else { (wi - (2.0 * depth - LEAST_COS) * n_side).normalize() }
 }
 
-/// The diffuse part of the scattering function, `albedo / pi`, per steradian.
+/// The diffuse term of the scattering function, `albedo / pi`, per steradian.
 #[inline]
 pub(in crate::transport) fn eval_diffuse(scattering: &Scattering) -> Rgb {
     scattering.albedo * (1.0 / PI) as f32
@@ -142,7 +145,7 @@ pub(in crate::transport) fn shading_factor(wi: DVec3, wo: DVec3, n_side: DVec3, 
     (i_shade * o_geom / (i_geom * o_shade)).min(MAX_SHADING_FACTOR)
 }
 
-/// Whether a surface has a diffuse or glossy part, besides mirrors and glass.
+/// Whether a surface scatters light diffusely or in a Phong lobe, besides mirrors and glass.
 #[inline]
 pub(in crate::transport) fn scatters(scattering: &Scattering) -> bool {
     scattering.albedo != Rgb::ZERO || matches!(scattering.lobe, Lobe::Phong { .. })

@@ -21,7 +21,7 @@ pub(in crate::transport) struct Continuation {
     pub(in crate::transport) direction: DVec3,
     /// Reflectance of a mirror, tint of glass for refracted light, else 1.
     pub(in crate::transport) tint: Rgb,
-    /// Part of the light that goes this way by Fresnel's equations, 0 to 1.
+    /// Fraction of the light that goes this way by Fresnel's equations, 0 to 1.
     pub(in crate::transport) fraction: f64,
     /// `eta^2` of a refracted direction, else 1. Radiance is divided by it, because the interface squeezes it into another solid
     /// angle; flux is not \[Veach97, 5.2\].
