@@ -7,7 +7,7 @@ const RATES: [f64; 5] = [1.0, 1.5, 2.0, 2.5, 3.0];
 /// Index of the greatest rate for other numbers than powers of two, whose last samples are not balanced by further ones.
 const UNBALANCED: usize = 1;
 
-/// Variances for each rate, from the difference of two parts of each pixel's samples; sums over pixels.
+/// Variances for each rate, from the difference between the first and the other samples of each pixel; sums over pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct ConvergenceRates {
     /// Variance of the mean of samples with weight 1.
@@ -28,8 +28,8 @@ impl ConvergenceRates {
         let last = if is_power_of_two(all) { RATES.len() - 1 } else { UNBALANCED };
         for (k, (one_sum, all_sum)) in self.of_one.iter_mut().zip(&mut self.of_all).enumerate() {
             let k = k.min(last);
-            // The parts complement each other, so their errors are correlated. The covariance follows from the rate, which holds for
-            // both parts and for all samples, whose mean is that of the parts.
+            // The two sets complement each other, so their errors are correlated. The covariance follows from the rate, which holds for
+            // both sets and for all samples, whose mean is the mean of both.
             let squared = |weight: f64, variance: f64| weight * weight * variance;
             let covariances = squared(all, of_all[k]) - squared(first, of_first[k]) - squared(other, of_other[k]);
             let of_difference = of_first[k] + of_other[k] - covariances / (first * other);
@@ -39,7 +39,7 @@ impl ConvergenceRates {
         }
     }
 
-    /// The squared noise of the mean of all samples, at the rate by which these parts and the halves of the first part agree on the variance
+    /// The squared noise of the mean of all samples, at the rate by which both sets and the halves of the first set agree on the variance
     /// of one sample. The slowest rate where `halves` is `None`.
     pub(super) fn squared_noise(&self, halves: Option<&Self>) -> f64 {
         let Some(halves) = halves else { return self.of_all[0] };
@@ -49,8 +49,8 @@ impl ConvergenceRates {
             return self.of_all[RATES.len() - 1];
         };
         let Some(lower) = upper.checked_sub(1) else { return self.of_all[0] };
-        let part = growth(lower).ln() / (growth(lower).ln() - growth(upper).ln());
-        self.of_all[lower] * (self.of_all[upper] / self.of_all[lower]).powf(part)
+        let fraction = growth(lower).ln() / (growth(lower).ln() - growth(upper).ln());
+        self.of_all[lower] * (self.of_all[upper] / self.of_all[lower]).powf(fraction)
     }
 }
 
@@ -75,7 +75,7 @@ mod tests {
         }
     }
 
-    /// The expected rates of pixels whose variance falls like this power, with so many samples in the parts.
+    /// The expected rates of pixels whose variance falls like this power, with this number of first and other samples.
     fn rates(power: f64, first: f64, other: f64) -> ConvergenceRates {
         let all = first + other;
         let squared = |n: f64| n.powf(2.0 - power);
@@ -124,6 +124,6 @@ mod tests {
         none.include(0.0, 2.0, 2.0);
         assert_eq!(none.squared_noise(Some(&rates(1.0, 1.0, 1.0))), 0.0);
         assert_eq!(none.squared_noise(Some(&none)), 0.0);
-        assert!(rates(1.5, 2.0, 2.0).squared_noise(Some(&none)) > 0.0, "what is new");
+        assert!(rates(1.5, 2.0, 2.0).squared_noise(Some(&none)) > 0.0, "new noise");
     }
 }

@@ -7,7 +7,7 @@ use crate::transport::PixelSamples;
 use glam::DVec3;
 use std::ops::{AddAssign, Sub};
 
-/// The film: sums over iterations. The sums of iterations 1 to n equal the merged sums of consecutive parts.
+/// The film: sums over iterations. The sums of iterations 1 to n equal the merged sums of consecutive ranges of iterations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmSums {
     width: u32,
@@ -258,14 +258,14 @@ mod tests {
         }
     }
 
-    /// An edge through each pixel, at another place.
+    /// An edge through each pixel, at another position.
     #[test]
     fn stratified_samples_of_edges_estimate_their_error() {
         let mut film = FilmSums::new(SIDE, SIDE);
         let edge = |pixel| Sampler::new(1, Stream::Probe, 0, pixel).next_1d();
         let lit = |pixel, index| {
-            let place = Sampler::new(1, Stream::Camera, pixel, index).next_2d();
-            Rgb::splat(if 0.8 * place.x + 0.2 * place.y < edge(pixel) { 1.0 } else { 0.0 })
+            let position = Sampler::new(1, Stream::Camera, pixel, index).next_2d();
+            Rgb::splat(if 0.8 * position.x + 0.2 * position.y < edge(pixel) { 1.0 } else { 0.0 })
         };
         for i in 0..33 {
             let samples = (0..PIXELS).map(|k| pixel(4, (4 * i..4 * i + 4).map(|index| lit(k, index)).sum(), 4.0));

@@ -61,7 +61,7 @@ impl Engine {
         self.shared.take_newest()
     }
 
-    /// What the engine is doing.
+    /// The present state of the engine.
     pub fn status(&self) -> Status {
         self.shared.status()
     }

@@ -28,7 +28,7 @@ pub enum Command {
     Target(Option<f64>),
 }
 
-/// What the engine is doing.
+/// The state of the engine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Status {
     /// Waiting for a scene.

@@ -60,8 +60,8 @@ pub struct Session {
 }
 
 impl Session {
-    /// Prepares a scene and its plan, and reuses what the scene has in common with the scene of the `previous` session. Call this inside
-    /// the thread pool that is to do the work.
+    /// Prepares a scene and its plan, and reuses the trees and textures that the scene has in common with the scene of the `previous`
+    /// session. Call this inside the thread pool that is to do the work.
     ///
     /// # Errors
     ///
@@ -101,7 +101,7 @@ impl Session {
         &self.summary
     }
 
-    /// Renders the next iteration and commits it to the film; `None` when cancelled, which leaves the film as it is.
+    /// Renders the next iteration and commits it to the film; `None` when cancelled, which does not change the film.
     pub fn advance(&mut self, cancel: Cancel) -> Option<()> {
         let start = Instant::now();
         let number = self.film.iterations() + 1;
@@ -173,8 +173,8 @@ impl Session {
         self.frame_of(generation, image, self.film.iterations(), self.stats())
     }
 
-    /// A quick picture with every `coarseness`-th pixel each way, as a frame of this generation; `None` when cancelled. The film stays as it
-    /// is.
+    /// A quick picture with every `coarseness`-th pixel each way, as a frame of this generation; `None` when cancelled. The film does
+    /// not change.
     pub fn draft(&self, generation: u64, coarseness: u32, cancel: Cancel) -> Option<Frame> {
         let start = Instant::now();
         let plan = self.plan.draft(coarseness);

@@ -27,7 +27,7 @@ pub(super) struct Worker {
     last_frame: Option<Instant>,
 }
 
-/// What the caller asks for at present, besides scenes.
+/// The caller's present wishes, besides scenes.
 struct Demands {
     quit: bool,
     paused: bool,

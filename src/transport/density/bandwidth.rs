@@ -424,7 +424,7 @@ mod tests {
                     *turns += u32::from(BandwidthDifferences::includes([width, height], pixel, 2 << octave));
                 }
             }
-            // 1, 2 or 4 pixels share four octaves.
+            // In four octaves a cell measures 1, 2 or 4 pixels.
             assert!(turns.iter().all(|&n| [1, 2, 4].contains(&n)), "{turns:?}");
             assert_eq!(turns.iter().sum::<u32>() as usize, 4 * cells.count());
         }

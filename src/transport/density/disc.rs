@@ -21,7 +21,7 @@ pub(in crate::transport) struct Disc<'v> {
     pub(in crate::transport) query: Query,
     /// The factors of photons with another normal.
     pub(in crate::transport) correction: CosineCorrection,
-    /// What the point sees of the disc; `None` where nothing hides any of it.
+    /// The region that the point sees; `None` where the point sees the whole disc.
     pub(in crate::transport) visible: Option<&'v VisibilityPolygon>,
     /// Integral of the kernel over the part of the disc that the surface fills and the point sees, square scene units.
     pub(in crate::transport) integral: f64,
@@ -151,9 +151,10 @@ mod tests {
     #[test]
     fn the_integral_covers_what_the_surface_fills() {
         let (world, whole) = (floor(), FRAC_PI_2 * 0.25);
-        for (u, v, part) in [(0.5, 0.5, 1.0), (0.0, 0.5, 0.5), (0.5, 1.0, 0.5), (1.0, 0.0, 0.25), (0.26, 0.26, 1.0)] {
+        for (u, v, fraction) in [(0.5, 0.5, 1.0), (0.0, 0.5, 0.5), (0.5, 1.0, 0.5), (1.0, 0.0, 0.25), (0.26, 0.26, 1.0)]
+        {
             let found = disc(&world, DVec2::new(u, v), 0.5, false).integral / whole;
-            assert!((found - part).abs() < 1e-9, "{found} of the disc at ({u}, {v})");
+            assert!((found - fraction).abs() < 1e-9, "{found} of the disc at ({u}, {v})");
         }
     }
 
@@ -180,9 +181,9 @@ mod tests {
             "[[object]]\nname = \"sheet\"\ntype = \"bezier\"\nmaterial = \"grey\"\npatches = {:?}\n",
             [patch(0.0), patch(1.0)]
         ));
-        let part = |u: f64| disc(&world, DVec2::new(u, 0.5), 0.4, false).integral / (FRAC_PI_2 * 0.16);
-        assert!((part(1.0) - 1.0).abs() < 1e-9, "{} at the shared edge", part(1.0));
-        assert!((part(0.0) - 0.5).abs() < 1e-9, "{} at the open edge", part(0.0));
+        let fraction = |u: f64| disc(&world, DVec2::new(u, 0.5), 0.4, false).integral / (FRAC_PI_2 * 0.16);
+        assert!((fraction(1.0) - 1.0).abs() < 1e-9, "{} at the shared edge", fraction(1.0));
+        assert!((fraction(0.0) - 0.5).abs() < 1e-9, "{} at the open edge", fraction(0.0));
     }
 
     #[test]

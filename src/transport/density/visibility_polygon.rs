@@ -109,11 +109,11 @@ impl VisibilityPolygon {
 
 /// A number from 0 to 4 that grows with the angle of a vector from the first axis, and is cheaper than the angle.
 fn diamond_angle(v: DVec2) -> f64 {
-    let part = v.y / (v.x.abs() + v.y.abs());
+    let fraction = v.y / (v.x.abs() + v.y.abs());
     match (v.x >= 0.0, v.y >= 0.0) {
-        (true, true) => part,
-        (false, _) => 2.0 - part,
-        (true, false) => 4.0 + part,
+        (true, true) => fraction,
+        (false, _) => 2.0 - fraction,
+        (true, false) => 4.0 + fraction,
     }
 }
 

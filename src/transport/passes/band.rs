@@ -121,7 +121,7 @@ mod tests {
         assert_eq!(differences.len(), 4);
     }
 
-    /// Two neighbours on the floor: what one sees in its lobe is shared, its own light is not.
+    /// Two neighbours on the floor: they reuse the light that one sees in its lobe, not its own light.
     #[test]
     fn light_in_a_lobe_goes_to_the_neighbours() {
         let world = world();

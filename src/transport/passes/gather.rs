@@ -61,9 +61,9 @@ pub fn gather(input: &PassInput, maps: &Maps, seen: &CameraBatch) -> Option<Gath
     }
     let mut gathered = Vec::with_capacity(points.len());
     for (points, source) in points.chunks(POINTS_PER_BLOCK).zip(interleaving.source.chunks(POINTS_PER_BLOCK)) {
-        let shared = source.iter().map(|source| source.map(|source| irradiances[source as usize]));
-        let shared: ArrayVec<Option<Rgb>, POINTS_PER_BLOCK> = shared.collect();
-        gather_block(&gatherer, points, &shared, &mut stack, &mut counters, &mut gathered);
+        let interleaved = source.iter().map(|source| source.map(|source| irradiances[source as usize]));
+        let interleaved: ArrayVec<Option<Rgb>, POINTS_PER_BLOCK> = interleaved.collect();
+        gather_block(&gatherer, points, &interleaved, &mut stack, &mut counters, &mut gathered);
         if input.cancel.is_cancelled() {
             return None;
         }
@@ -82,24 +82,24 @@ simd_dispatch! {
         irradiances: &mut Vec<Rgb>,
     ) {
         for &index in gathering {
-            irradiances.push(gatherer.shared_irradiance(l, &points[index as usize], stack));
+            irradiances.push(gatherer.interleaved_irradiance(l, &points[index as usize], stack));
         }
     }
 }
 
 simd_dispatch! {
-    /// Appends the light at some points; `shared` is the irradiance of interreflection that a neighbour gathered.
+    /// Appends the light at some points; `interleaved` is the irradiance of interreflection that a neighbour gathered.
     fn gather_block(
         l: impl Lanes,
         gatherer: &Gatherer,
         points: &[VisiblePoint],
-        shared: &[Option<Rgb>],
+        interleaved: &[Option<Rgb>],
         stack: &mut Stack,
         counters: &mut Counters,
         gathered: &mut Vec<Gathered>,
     ) {
-        for (point, shared) in points.iter().zip(shared) {
-            gathered.push(gatherer.at(l, point, *shared, stack, counters));
+        for (point, interleaved) in points.iter().zip(interleaved) {
+            gathered.push(gatherer.at(l, point, *interleaved, stack, counters));
         }
     }
 }
@@ -133,10 +133,10 @@ impl Gatherer<'_> {
 
     /// The irradiance that a point gathers for its neighbours, too.
     #[inline(always)]
-    fn shared_irradiance<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
+    fn interleaved_irradiance<L: Lanes>(&self, l: L, point: &VisiblePoint, stack: &mut Stack) -> Rgb {
         let mut sum = Rgb::ZERO;
         for kind in MapKind::ALL {
-            if self.is_shared(kind) && self.needs(kind, point) {
+            if self.is_interleaved(kind) && self.needs(kind, point) {
                 let radius = self.radii.at(kind, point);
                 // No closure: it would not be compiled with the vector instructions.
                 let Some(mut disc) = self.disc(point, None, radius) else { continue };
@@ -148,13 +148,13 @@ impl Gatherer<'_> {
         if sum.is_finite() { sum } else { Rgb::ZERO }
     }
 
-    /// The light at a point; `shared` is the irradiance that a neighbour gathered.
+    /// The light at a point; `interleaved` is the irradiance that a neighbour gathered.
     #[inline(always)]
     fn at<L: Lanes>(
         &self,
         l: L,
         point: &VisiblePoint,
-        shared: Option<Rgb>,
+        interleaved: Option<Rgb>,
         stack: &mut Stack,
         counters: &mut Counters,
     ) -> Gathered {
@@ -164,11 +164,11 @@ impl Gatherer<'_> {
         let largest = estimates.iter().fold(0.0, |largest, estimate| estimate.radius.max(largest));
         let polygon = self.visibility_polygon(point, largest * if compares { WIDER } else { 1.0 }, counters);
         for Estimate { kind, shows, radius } in estimates {
-            let light = match shared {
+            let light = match interleaved {
                 Some(irradiance) if kind == MapKind::Global => {
                     point.throughput * irradiance * estimate::diffuse_scattering(point, radius)
                 }
-                Some(_) if self.is_shared(kind) => continue,
+                Some(_) if self.is_interleaved(kind) => continue,
                 _ => {
                     let is_caustic = kind == MapKind::Caustic;
                     *(if is_caustic { &mut counters.caustic_gathers } else { &mut counters.global_gathers }) += 1;
@@ -211,7 +211,7 @@ impl Gatherer<'_> {
     }
 
     /// Whether points gather the photons of a map for their neighbours, too: interreflection, in a draft also indirect caustics.
-    fn is_shared(&self, kind: MapKind) -> bool {
+    fn is_interleaved(&self, kind: MapKind) -> bool {
         kind == MapKind::Global || (kind == MapKind::IndirectCaustic && self.input.plan.is_draft())
     }
 
@@ -233,7 +233,8 @@ impl Gatherer<'_> {
             || self.input.plan.gathers_visible_caustics(primitive(), point.pixel, self.input.iteration)
     }
 
-    /// What a point sees of its surface within the reach (scene units), where an object stands on the surface.
+    /// The region of its surface that a point sees within the reach (scene units); `None` where no object stands on the surface within the
+    /// reach.
     fn visibility_polygon(
         &self,
         point: &VisiblePoint,
@@ -310,7 +311,7 @@ mod tests {
         testing::world(&quad("floor", [[-1.0, 0.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]], "grey"))
     }
 
-    /// Photons evenly over the floor, from straight above, after so many scattering events.
+    /// Photons evenly over the floor, from straight above, after this many scattering events.
     fn photons(world: &World, bounces: u32) -> Vec<Photon> {
         let at = |k: u32| 2.0 * (f64::from(k) + 0.5) / f64::from(SIDE) - 1.0;
         let photon = |k: u32| Photon {
@@ -379,7 +380,7 @@ mod tests {
         assert_eq!(of_all(&Maps::build(&[], [&photons, &photons, &[]])), 200.0);
         assert_eq!(of_all(&Maps::build(&[], [&photons, &[], &photons])), 100.0, "no lobe, no glossy map");
         assert_eq!(of_all(&Maps::default()), 0.0);
-        // No caustics are planned, so directly seen ones are splats; those in a mirror are gathered.
+        // No caustics are planned, so directly seen ones are splats; caustics in a mirror are gathered.
         let caustics = Maps::build(&photons, [&[], &[], &[]]);
         assert_eq!(of_all(&caustics), 0.0);
         let in_a_mirror = VisiblePoint { seen_directly: false, ..diffuse };

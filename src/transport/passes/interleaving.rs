@@ -33,7 +33,7 @@ impl Interleaving {
         // The range of each pixel's points in `gathering`.
         let mut ranges = vec![0..0; (last - first) as usize + 1];
         for (index, point) in (0..).zip(points) {
-            let gathers = grid.may_share(point) && grid.gathering_pixel(point.pixel) == Some(point.pixel);
+            let gathers = grid.may_interleave(point) && grid.gathering_pixel(point.pixel) == Some(point.pixel);
             // An object that stands nearer would hide some of the disc.
             if gathers && point.clearance.standing >= WIDER * radius(point) {
                 let range = &mut ranges[(point.pixel - first) as usize];
@@ -45,7 +45,7 @@ impl Interleaving {
             }
         }
         let source_of = |(index, point): (u32, &VisiblePoint)| {
-            let pixel = grid.gathering_pixel(point.pixel).filter(|_| grid.may_share(point))?;
+            let pixel = grid.gathering_pixel(point.pixel).filter(|_| grid.may_interleave(point))?;
             let mut range = ranges.get(pixel.checked_sub(first)? as usize)?.clone();
             if pixel == point.pixel {
                 return range.find(|&k| gathering[k] == index);
@@ -81,16 +81,16 @@ mod tests {
 
     /// Pixel 0 gathers for pixel 1. Each sees a floor (0), and a wall (8) in a mirror.
     #[test]
-    fn pixels_share_the_irradiance_of_each_surface_that_both_see() {
+    fn pixels_reuse_the_irradiance_of_each_surface_that_both_see() {
         let (floor, wall) = (0, 8);
         let points = [point(0, floor, 0.0), point(0, wall, 5.0), point(1, wall, 5.1), point(1, floor, 0.1)];
-        let shared = |points: &[VisiblePoint]| Interleaving::new(InterleavedGrid::new(2, 0), points, |_| 1.0).source;
-        assert_eq!(shared(&points), [Some(0), Some(1), Some(1), Some(0)]);
+        let sources = |points: &[VisiblePoint]| Interleaving::new(InterleavedGrid::new(2, 0), points, |_| 1.0).source;
+        assert_eq!(sources(&points), [Some(0), Some(1), Some(1), Some(0)]);
         let far = [points[0], points[1], point(1, wall, 5.4), point(1, floor, 0.1)];
-        assert_eq!(shared(&far)[2], None, "a fourth of the radius is the limit");
+        assert_eq!(sources(&far)[2], None, "a fourth of the radius is the limit");
         let later = [points[0], points[1], VisiblePoint { photon_bounces: 2, ..points[2] }, points[3]];
-        assert_eq!(shared(&later)[2], None, "other photons count there");
+        assert_eq!(sources(&later)[2], None, "other photons count there");
         let near = [points[0], point(0, floor, 0.2), point(1, floor, 0.15)];
-        assert_eq!(shared(&near), [Some(0), Some(1), Some(1)], "the nearest of a pixel's points");
+        assert_eq!(sources(&near), [Some(0), Some(1), Some(1)], "the nearest of a pixel's points");
     }
 }

@@ -110,7 +110,7 @@ mod tests {
         Some(LobeSample { radiance: Rgb::splat(found), position, normal: Vec3::Y, tag, reach, window: reach as u32 })
     }
 
-    fn shared<const N: usize>(lobes: [Option<LobeSample>; N], width: u32) -> [f32; N] {
+    fn reused<const N: usize>(lobes: [Option<LobeSample>; N], width: u32) -> [f32; N] {
         let mut film = [Rgb::ZERO; N];
         reuse_lobes([lobes.as_slice()].into_iter(), width, &mut film);
         film.map(|radiance| radiance.x)
@@ -119,18 +119,18 @@ mod tests {
     #[test]
     fn neighbours_take_the_mean() {
         let row = [lobe(0.0, 0, 1.0, 3.0), lobe(1.0, 0, 1.0, 6.0), lobe(2.0, 0, 1.0, 0.0), lobe(3.0, 0, 0.0, 8.0)];
-        assert_eq!(shared(row, 4), [4.5, 3.0, 14.0 / 3.0, 8.0], "each as far as its own reach");
+        assert_eq!(reused(row, 4), [4.5, 3.0, 14.0 / 3.0, 8.0], "each within its own reach");
     }
 
     #[test]
-    fn neither_other_surfaces_nor_far_places_count() {
+    fn neither_other_surfaces_nor_far_points_count() {
         let row = [lobe(0.0, 0, 1.0, 3.0), lobe(1.0, 8, 1.0, 6.0), None, lobe(3.0, 8, 1.0, 5.0)];
-        assert_eq!(shared(row, 4), [3.0, 6.0, 0.0, 5.0]);
+        assert_eq!(reused(row, 4), [3.0, 6.0, 0.0, 5.0]);
         let on_a_bend =
             lobe(1.0, 0, 1.0, 9.0).map(|lobe| LobeSample { normal: Vec3::new(0.1, 1.0, 0.0).normalize(), ..lobe });
-        assert_eq!(shared([lobe(0.0, 0, 1.0, 3.0), on_a_bend], 2), [3.0, 9.0]);
-        // A steep surface: the next pixel in the window shows a place beyond the reach.
-        assert_eq!(shared([lobe(0.0, 0, 1.0, 3.0), lobe(1.5, 0, 1.0, 6.0)], 2), [3.0, 6.0]);
+        assert_eq!(reused([lobe(0.0, 0, 1.0, 3.0), on_a_bend], 2), [3.0, 9.0]);
+        // A steep surface: the next pixel in the window shows a point beyond the reach.
+        assert_eq!(reused([lobe(0.0, 0, 1.0, 3.0), lobe(1.5, 0, 1.0, 6.0)], 2), [3.0, 6.0]);
     }
 
     #[test]
@@ -139,6 +139,6 @@ mod tests {
             lobe(x, 0, 1.0, found).map(|lobe| LobeSample { position: Vec3::new(x, 0.0, z), ..lobe })
         };
         let film = [at(0.0, 0.0, 2.0), at(1.0, 0.0, 4.0), at(0.0, 1.0, 6.0), at(1.0, 1.0, 8.0)];
-        assert_eq!(shared(film, 2), [4.0, 14.0 / 3.0, 16.0 / 3.0, 6.0], "two beside each, none at the diagonal");
+        assert_eq!(reused(film, 2), [4.0, 14.0 / 3.0, 16.0 / 3.0, 6.0], "two beside each, none at the diagonal");
     }
 }

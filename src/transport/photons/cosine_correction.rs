@@ -4,7 +4,7 @@ use crate::math::Lanes;
 use glam::Vec3;
 
 /// The factor of a photon's flux at a gathering point: the cosine there over the cosine where the photon arrived. A photon stands for a
-/// beam, and a surface with another normal would catch another part of the beam.
+/// beam, and a surface with another normal would catch another fraction of it.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::transport) struct CosineCorrection {
     /// Unit shading normal at the gathering point.

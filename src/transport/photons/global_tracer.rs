@@ -252,10 +252,10 @@ mod tests {
         photons.iter().map(|photon| f64::from(photon.flux.y)).sum::<f64>() / (4.0 * std::f64::consts::PI)
     }
 
-    fn assert_flux(photons: &[Photon], expected: f64, what: &str) {
+    fn assert_flux(photons: &[Photon], expected: f64, case: &str) {
         let found = flux(photons);
-        // Fewer than `max_bounces` photons a path: a standard error below 2 / sqrt(PATHS), of which stratification leaves a part.
-        assert!((found - expected).abs() < 6.0 / (PATHS as f64).sqrt(), "{what}: {found} instead of {expected}");
+        // Fewer than `max_bounces` photons a path: a standard error below 2 / sqrt(PATHS), which stratification lowers.
+        assert!((found - expected).abs() < 6.0 / (PATHS as f64).sqrt(), "{case}: {found} instead of {expected}");
     }
 
     /// In a closed room of albedo 1/2 the light arrives with 1/2, 1/4, ... of its flux; the first arrival is direct light.
@@ -270,7 +270,7 @@ mod tests {
         }
     }
 
-    /// Where half of the light is scattered and half mirrored, arrival k (from 0) comes from the diffuse part with 1/2, and from the mirror
+    /// Where half of the light is scattered and half mirrored, arrival k (from 0) comes from diffuse reflection with 1/2, and from the mirror
     /// after some diffuse event with `1/2 (1 - 2^(1 - k))`.
     #[test]
     fn light_from_mirrors_is_kept_apart() {

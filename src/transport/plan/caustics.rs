@@ -106,8 +106,8 @@ impl Plan {
             || self.caustics.as_ref().is_none_or(|caustics| caustics.gathered_iterations.is_infinite())
     }
 
-    /// Whether any pixel reads the caustic map in an iteration. Once measured radii make all pixels splat, they do so for ever: without a
-    /// map nothing is measured, and the best radii shrink with the number of iterations.
+    /// Whether any pixel reads the caustic map in an iteration. Once measured radii make all pixels splat, no later refinement gathers
+    /// again: without a map nothing is measured, and the best radii shrink with the number of iterations.
     pub fn needs_caustic_map(&self, iteration: u64) -> bool {
         let Some(caustics) = &self.caustics else { return false };
         caustics.seen_indirectly

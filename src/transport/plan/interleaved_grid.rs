@@ -57,7 +57,7 @@ impl InterleavedGrid {
     }
 
     /// Whether neighbours may use the irradiance of a point: not on surfaces with relief, except in drafts.
-    pub(in crate::transport) fn may_share(&self, point: &VisiblePoint) -> bool {
+    pub(in crate::transport) fn may_interleave(&self, point: &VisiblePoint) -> bool {
         self.is_draft || (point.n_shade == point.n_side && point.facets == 0)
     }
 }

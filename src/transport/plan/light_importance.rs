@@ -1,4 +1,4 @@
-//! Importance of lights: the fraction of a light's photon paths that reach what the camera may see, low for a lamp in a closed room next
+//! Importance of lights: the fraction of a light's photon paths that reach a surface in view, low for a lamp in a closed room next
 //! door. A few probe paths estimate it. The picture stays unbiased, because a light of low importance still emits some paths.
 
 use crate::geometry::Primitive;
@@ -57,9 +57,9 @@ fn is_mirror_like(world: &World, primitive: u32) -> bool {
 
 /// Whether the camera sees a point, or a ray from the point to a random position on one of the mirrors meets a mirror.
 fn may_be_seen(world: &World, position: DVec3, mirrors: &[u32], targets: &mut Sampler) -> bool {
-    let eye = world.camera.position;
+    let camera = world.camera.position;
     let directly =
-        || world.camera.project(position).is_some() && !world.aggregate.occluded(&Ray::between(position, eye));
+        || world.camera.project(position).is_some() && !world.aggregate.occluded(&Ray::between(position, camera));
     let mut in_mirror = |mirror: &u32| {
         let primitive = &world.aggregate.primitives()[*mirror as usize];
         let bounds = primitive.bounds();

@@ -5,7 +5,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `notes` | the decisions, for people |
+//! | `notes` | the decisions and their reasons, as text |
 //! | `paths` | how many paths leave each light |
 //! | `light_importance` | how much of a light's paths matters for the camera |
 //! | `radii` | radii of density estimates after one full iteration |

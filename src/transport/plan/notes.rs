@@ -1,4 +1,4 @@
-//! The plan's decisions, for people.
+//! The plan's decisions and their reasons, as text for the user.
 
 use crate::math::Rgb;
 use crate::transport::lights::light_sampler::MOST_SAMPLED;
@@ -51,7 +51,7 @@ pub struct PlanNote {
     pub item: PlanItem,
     /// Whether the component is rendered; otherwise it is skipped.
     pub rendered: bool,
-    /// The reason, as a text for people.
+    /// The reason, in English.
     pub reason: String,
 }
 

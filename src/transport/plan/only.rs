@@ -12,7 +12,7 @@ pub enum Component {
     Direct,
     /// Caustics, also caustics that the camera sees in mirrors, through glass or in Phong lobes.
     Caustics,
-    /// Light that diffuse or glossy surfaces scattered at least twice, without the part in Phong lobes that belongs to `Direct`.
+    /// Light that diffuse or glossy surfaces scattered at least twice, without the light in Phong lobes that belongs to `Direct`.
     Interreflection,
 }
 

@@ -23,7 +23,7 @@ pub(super) const GLOSSY_RADIUS: f64 = 6.0;
 /// Distance up to which neighbours reuse each other's lobe samples, pixel footprints. Measured: with 3 and 6 the error is 1.09 and
 /// 0.96 times as great in a room of gloss.
 const LOBE_REACH: f64 = 4.0;
-/// Greatest radius, in radii of the world: a wider disc would mix the light of different parts of the scene.
+/// Greatest radius, in radii of the world: a wider disc would mix the light of different regions of the scene.
 const LARGEST_RADIUS: f64 = 0.15;
 
 /// Radius for interreflection in a draft, pixel footprints of the draft.

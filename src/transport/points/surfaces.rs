@@ -1,4 +1,4 @@
-//! What the planner and the passes ask about a primitive's surface.
+//! Properties of a primitive's surface that the planner and the passes need.
 
 use crate::world::{Lobe, Material, Surface, World};
 use glam::DVec2;
@@ -39,7 +39,7 @@ impl World {
         self.material_of(primitive).map_or(0.0, Material::scattered_bound)
     }
 
-    /// Whether a part of a primitive may lie inside the view pyramid. False positives are possible, false negatives are not.
+    /// Whether a primitive may reach into the view pyramid. False positives are possible, false negatives are not.
     pub(in crate::transport) fn may_be_in_view(&self, primitive: u32) -> bool {
         let bounds = self.aggregate.primitives()[primitive as usize].bounds();
         bounds.is_empty() || self.camera.may_see(bounds.center(), 0.5 * bounds.diagonal())

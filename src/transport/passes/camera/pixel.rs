@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn albedo_and_spread_are_those_of_all_paths_on_the_surface() {
+    fn albedo_and_spread_count_all_paths_on_the_surface() {
         let mut pixel = Pixel::new();
         for facet in [facet(0, -0.2, 0.2), facet(0, 0.3, 0.6), facet(8, 5.0, 1.0)] {
             pixel.add(facet, false);
@@ -97,7 +97,10 @@ mod tests {
         assert!((points[0].mean_albedo - Rgb::splat(0.4)).length() < 1e-6, "{}", points[0].mean_albedo);
         assert_eq!((points[0].spread, points[0].facets, facets.len()), (0.3, 0, 1), "no relief, no facets");
         let (points, _) = completed(&pixel, &[visible_point()], true);
-        assert!(points[0].on_an_edge && points[0].mean_albedo == Rgb::ONE, "at an edge each point stays as it is");
+        assert!(
+            points[0].on_an_edge && points[0].mean_albedo == Rgb::ONE,
+            "at an edge each point keeps its own albedo"
+        );
         let in_a_mirror = VisiblePoint { seen_directly: false, ..visible_point() };
         assert_eq!(completed(&pixel, &[in_a_mirror], false).0[0].mean_albedo, Rgb::ONE);
     }
@@ -116,7 +119,7 @@ mod tests {
         assert_eq!(completed(&pixel, &[visible_point()], false).0[0].facets, 0, "the next pixel begins afresh");
     }
 
-    /// Of a texture that is black at the visible point the other paths may have seen a part that is not.
+    /// Of a texture that is black at the visible point the other paths may have seen a brighter texel.
     #[test]
     fn points_that_reflect_nothing_are_dropped() {
         let black = Scattering { albedo: Rgb::ZERO, lobe: Lobe::None };

@@ -16,7 +16,7 @@ use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3};
 
 /// Interfaces of a path at which both sides are followed; at further interfaces a random side is. Two cover the reflection and the view
-/// through a glass object; more would double the work for ever weaker branches.
+/// through a glass object; more would double the work for weaker and weaker branches.
 const FOLLOWED_SPLITS: u32 = 2;
 /// Throughput below which a branch ends at random: it would cost as much as a bright branch.
 const WEAK_BRANCH: f32 = 0.02;
@@ -28,7 +28,7 @@ pub(super) struct CameraTracer<'a> {
     world: &'a World,
     plan: &'a Plan,
     direct: DirectLight<'a>,
-    /// What the paths found.
+    /// Samples and visible points of the paths so far.
     pub(super) batch: CameraBatch,
     /// Branches of the present path still to follow.
     branches: ArrayVec<Branch, MAX_BRANCHES>,
@@ -264,7 +264,7 @@ mod tests {
         quad("mirror", [[-half, -half, 0.0], [2.0 * half, 0.0, 0.0], [0.0, 2.0 * half, 0.0]], "mirror")
     }
 
-    /// One path along -z from (0.1, 0, 4): its radiance, and what it found.
+    /// One path along -z from (0.1, 0, 4): its radiance, and the batch of its tracer.
     fn traced(text: &str) -> (Rgb, CameraBatch) {
         let world = testing::world(text);
         let plan = Plan::new(&world);

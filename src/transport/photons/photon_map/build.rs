@@ -79,7 +79,7 @@ fn split(photons: &[Photon], order: &mut [Coded]) -> Option<usize> {
         return None;
     }
     if differing(order) == 0 {
-        // All photons share one cell of the grid: a finer grid over the cell alone tells them apart.
+        // All photons lie in one cell of the grid: a finer grid over the cell alone tells them apart.
         morton::refine(photons, order);
     }
     let bit = differing(order).checked_ilog2()?;

@@ -119,8 +119,8 @@ impl PhotonMap {
                 }
                 let flux = load3(l, &photons.flux);
                 for channel in 0..3 {
-                    let part = l.mul(weight, flux[channel]);
-                    sums[channel] = l.mul_add(part, reflected[channel], sums[channel]);
+                    let term = l.mul(weight, flux[channel]);
+                    sums[channel] = l.mul_add(term, reflected[channel], sums[channel]);
                 }
             },
         );

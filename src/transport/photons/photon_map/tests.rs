@@ -6,11 +6,11 @@ use crate::transport::photons::{CosineCorrection, Photon};
 use crate::transport::points::Facet;
 use glam::Vec3;
 
-fn photons(count: u64, place: impl Fn(&mut Sampler) -> Vec3) -> Vec<Photon> {
+fn photons(count: u64, distribution: impl Fn(&mut Sampler) -> Vec3) -> Vec<Photon> {
     (0..count)
         .map(|k| {
             let mut s = Sampler::new(1, Stream::Camera, 77, k);
-            let position = place(&mut s);
+            let position = distribution(&mut s);
             let flux = Rgb::new(1.0, s.next_1d() as f32, 0.5);
             let wi = Vec3::new(s.next_1d() as f32 - 0.5, 1.0, 0.3).normalize();
             Photon { position, flux, wi, cos: wi.y, tag: (k % 3) as u32 }
@@ -42,11 +42,11 @@ fn check_sums<L: Lanes>(l: L) {
     let point = |_: &mut Sampler| Vec3::splat(0.5);
     // A far one puts all others into one cell of the grid.
     let far = |s: &mut Sampler| if s.next_1d() < 0.01 { 1e7 * unit(s) } else { unit(s) };
-    let places: [&dyn Fn(&mut Sampler) -> Vec3; 5] = [&unit, &plane, &line, &point, &far];
+    let distributions: [&dyn Fn(&mut Sampler) -> Vec3; 5] = [&unit, &plane, &line, &point, &far];
     let mut stack = Stack::new();
     let n_shade = Vec3::new(0.5, 1.0, 0.0).normalize();
-    for (place, count) in places.into_iter().flat_map(|p| [0, 1, 7, 16, 17, 4000].map(|n| (p, n))) {
-        let photons = photons(count, place);
+    for (distribution, count) in distributions.into_iter().flat_map(|p| [0, 1, 7, 16, 17, 4000].map(|n| (p, n))) {
+        let photons = photons(count, distribution);
         let map = PhotonMap::build(&photons);
         assert_eq!(map.len(), photons.len());
         let most = map.nodes.iter().flat_map(|node| node.blocks).max().unwrap_or(0) as usize;
@@ -54,7 +54,7 @@ fn check_sums<L: Lanes>(l: L) {
         assert!(most <= LEAF_SIZE / LANES || in_one_place, "{most} blocks in a leaf");
         for k in 0..50 {
             let mut s = Sampler::new(2, Stream::Camera, 5, k);
-            let position = place(&mut s);
+            let position = distribution(&mut s);
             let radius = 0.3 * s.next_1d() as f32;
             for (tag_start, tag_span) in [(1, 2), (0, 3)] {
                 let slope = [Vec3::ZERO, Vec3::new(3.0, 0.0, -2.0)][tag_start as usize % 2];
