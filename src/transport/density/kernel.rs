@@ -151,49 +151,70 @@ fn sector_moments(p: DVec2, q: DVec2, radius: f64) -> Moments {
     let h = p.perp_dot(along).abs();
     let (s0, s1) = (p.dot(along), q.dot(along));
     let sign = p.perp_dot(q).signum();
-    let normal = -sign * along.perp();
-    let r2 = radius * radius;
+    let side = Side { normal: -sign * along.perp(), along, h, radius };
     // The side runs from s0 to s1; within +-half it lies in the disc, elsewhere the arc bounds the area.
-    let half = (r2 - h * h).max(0.0).sqrt();
+    let half = (radius * radius - h * h).max(0.0).sqrt();
     let (c0, c1) = (s0.clamp(-half, half), s1.clamp(-half, half));
-    let in_frame = |zeroth: f64, n: f64, t: f64, nn: f64, nt: f64, tt: f64| {
-        let axes = DMat2::from_cols(normal, along);
-        let second = axes * DMat2::from_cols_array(&[nn, nt, nt, tt]) * axes.transpose();
-        Moments { zeroth, first: n * normal + t * along, second }
+    let between = |from: f64, to: f64, of: fn(&Side, f64) -> Moments| {
+        if from == to { Moments::ZERO } else { of(&side, to) + -1.0 * of(&side, from) }
     };
-    let chord = |s: f64| {
+    let arcs =
+        if half == 0.0 { between(s0, s1, Side::arc) } else { between(s0, c0, Side::arc) + between(c1, s1, Side::arc) };
+    sign * (arcs + between(c0, c1, Side::chord))
+}
+
+/// A side of a polygon about the middle of the disc.
+struct Side {
+    /// Unit vector from the middle to the side.
+    normal: DVec2,
+    /// Unit vector along the side.
+    along: DVec2,
+    /// Distance of the side from the middle.
+    h: f64,
+    /// Radius of the disc.
+    radius: f64,
+}
+
+impl Side {
+    /// Moments by their coordinates along the normal (n) and along the side (t).
+    #[inline]
+    fn moments(&self, zeroth: f64, [n, t]: [f64; 2], [nn, nt, tt]: [f64; 3]) -> Moments {
+        let axes = DMat2::from_cols(self.normal, self.along);
+        let second = axes * DMat2::from_cols_array(&[nn, nt, nt, tt]) * axes.transpose();
+        Moments { zeroth, first: n * self.normal + t * self.along, second }
+    }
+
+    /// Moments over the triangle between the middle and the side, from the foot of the normal up to `s`.
+    fn chord(&self, s: f64) -> Moments {
+        let (h, r2) = (self.h, self.radius * self.radius);
         let (h2, s2) = (h * h, s * s);
         let squares = (h2 + s2) * (h2 + s2) / 4.0;
-        in_frame(
+        self.moments(
             h * s / 2.0 - (h2 * h * s + h * s2 * s / 3.0) / (4.0 * r2),
-            h2 * s / 3.0 - (h2 * h2 * s + h2 * s2 * s / 3.0) / (5.0 * r2),
-            h * s2 / 6.0 - h * squares / (5.0 * r2),
-            h2 * h * s / 4.0 - (h2 * h2 * h * s + h2 * h * s2 * s / 3.0) / (6.0 * r2),
-            h2 * s2 / 8.0 - h2 * squares / (6.0 * r2),
-            h * s2 * s / 12.0 - (h2 * h * s2 * s / 3.0 + h * s2 * s2 * s / 5.0) / (6.0 * r2),
+            [h2 * s / 3.0 - (h2 * h2 * s + h2 * s2 * s / 3.0) / (5.0 * r2), h * s2 / 6.0 - h * squares / (5.0 * r2)],
+            [
+                h2 * h * s / 4.0 - (h2 * h2 * h * s + h2 * h * s2 * s / 3.0) / (6.0 * r2),
+                h2 * s2 / 8.0 - h2 * squares / (6.0 * r2),
+                h * s2 * s / 12.0 - (h2 * h * s2 * s / 3.0 + h * s2 * s2 * s / 5.0) / (6.0 * r2),
+            ],
         )
-    };
-    let arc = |s: f64| {
+    }
+
+    /// Moments over the sector of the disc from the normal to the direction of the side's point at `s`.
+    fn arc(&self, s: f64) -> Moments {
+        let (h, r2) = (self.h, self.radius * self.radius);
         let angle = s.atan2(h);
         // Without trigonometry, which would take as long as the rest.
         let length = (s * s + h * h).sqrt().max(f64::MIN_POSITIVE);
         let (sin, cos) = (s / length, h / length);
-        let (third, fourth) = (2.0 / 15.0 * r2 * radius, r2 * r2 / 12.0);
+        let (third, fourth) = (2.0 / 15.0 * r2 * self.radius, r2 * r2 / 12.0);
         let (even, odd) = (0.5 * angle, 0.5 * sin * cos);
-        in_frame(
+        self.moments(
             0.25 * r2 * angle,
-            third * sin,
-            -third * cos,
-            fourth * (even + odd),
-            fourth * 0.5 * sin * sin,
-            fourth * (even - odd),
+            [third * sin, -third * cos],
+            [fourth * (even + odd), fourth * 0.5 * sin * sin, fourth * (even - odd)],
         )
-    };
-    let between = |from: f64, to: f64, of: &dyn Fn(f64) -> Moments| {
-        if from == to { Moments::ZERO } else { of(to) + -1.0 * of(from) }
-    };
-    let arcs = if half == 0.0 { between(s0, s1, &arc) } else { between(s0, c0, &arc) + between(c1, s1, &arc) };
-    sign * (arcs + between(c0, c1, &chord))
+    }
 }
 
 #[cfg(test)]

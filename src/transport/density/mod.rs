@@ -7,11 +7,13 @@
 //! | `visibility_polygon` | the part of its plane that a point sees past standing objects |
 //! | `disc` | the disc of a point: kernel, edges, visibility |
 //! | `estimate` | sums over a disc: irradiance and reflected radiance |
+//! | `cells` | the film in cells of a few pixels |
 //! | `bandwidth` | radii over the film by measured bias and variance |
 //! | `sample_allocation` | camera samples of each pixel by measured variance |
 //! | `film_statistics` | measurements of iterations |
 
 pub(in crate::transport) mod bandwidth;
+mod cells;
 pub(in crate::transport) mod disc;
 pub(in crate::transport) mod estimate;
 mod film_statistics;

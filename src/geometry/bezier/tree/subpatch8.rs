@@ -123,6 +123,47 @@ impl Subpatch8 {
         layout: impl LaneLayout,
         ray: &LaneRays<L>,
     ) -> Candidates {
+        let local = self.local_rays(l, layout, ray);
+        let [d_alpha, d_beta, _] = local.direction;
+        let [c, b, a] = self.heights(l, layout, &local);
+        let error = layout.load(l, &self.error);
+        let b_squared = l.mul(b, b);
+        let discriminant = l.mul_add(l.splat(-4.0), l.mul(a, c), b_squared);
+        let spread = l.scale(4.0, l.mul(l.abs(a), error));
+        let steepness = l.sub(discriminant, spread);
+        let [error_a, error_b] = [layout.load(l, &self.slope_error[0]), layout.load(l, &self.slope_error[1])];
+        let slope_error = l.mul_add(error_a, l.abs(d_alpha), l.mul(error_b, l.abs(d_beta)));
+        let decided = l.less(l.mul_add(l.splat(2e-6), b_squared, l.mul(slope_error, slope_error)), steepness);
+        let none = l.less(l.mul_add(l.splat(2e-6), b_squared, l.add(discriminant, spread)), l.splat(0.0));
+        let sign = l.sign(b);
+        let sum = l.mul_add(sign, l.sqrt(discriminant), b);
+        let slack = l.div(error, l.sqrt(steepness));
+        let reach = [
+            l.mul_add(l.abs(d_alpha), slack, layout.load(l, &self.extent[0])),
+            l.mul_add(l.abs(d_beta), slack, layout.load(l, &self.extent[1])),
+        ];
+        let first = BranchRoots::new(l, l.div(l.scale(-2.0, c), sum), &local);
+        let second = BranchRoots::new(l, l.div(l.scale(-0.5, sum), a), &local);
+        let lanes = layout.active(self.count);
+        let decided_lanes = l.bits(decided) & lanes;
+        let branches = [first.in_range(l, ray, slack, reach), second.in_range(l, ray, slack, reach)];
+        let mut undecided = !(decided_lanes | l.bits(none)) & lanes;
+        if undecided != 0 {
+            undecided &= self.oriented_boxes_hit(l, layout, ray, &local);
+        }
+        Candidates {
+            branches: (branches[0] & decided_lanes) | (branches[1] & decided_lanes) << LANES,
+            undecided,
+            z: [l.store(first.z), l.store(second.z)],
+            start: [[l.store(first.alpha), l.store(first.beta)], [l.store(second.alpha), l.store(second.beta)]],
+            slack: l.store(slack),
+            slope: l.store(sign),
+        }
+    }
+
+    /// Rays in the coordinates of the subpatches.
+    #[inline(always)]
+    fn local_rays<L: Lanes>(&self, l: L, layout: impl LaneLayout, ray: &LaneRays<L>) -> LocalRays<L> {
         let center = layout.load3(l, &self.center);
         let [x, y, z] = ray.direction;
         let from_center =
@@ -135,9 +176,17 @@ impl Subpatch8 {
         ];
         let [axis_a, axis_b, axis_c] =
             [layout.load3(l, &self.axes[0]), layout.load3(l, &self.axes[1]), layout.load3(l, &self.axes[2])];
-        let at @ [alpha, beta, gamma] = [l.dot(axis_a, foot), l.dot(axis_b, foot), l.dot(axis_c, foot)];
-        let along @ [d_alpha, d_beta, d_gamma] =
-            [l.dot(axis_a, ray.direction), l.dot(axis_b, ray.direction), l.dot(axis_c, ray.direction)];
+        LocalRays {
+            nearest,
+            foot: [l.dot(axis_a, foot), l.dot(axis_b, foot), l.dot(axis_c, foot)],
+            direction: [l.dot(axis_a, ray.direction), l.dot(axis_b, ray.direction), l.dot(axis_c, ray.direction)],
+        }
+    }
+
+    /// The coefficients c, b, a of the heights of rays over the paraboloids, `h(w) = c + b w + a w^2`.
+    #[inline(always)]
+    fn heights<L: Lanes>(&self, l: L, layout: impl LaneLayout, local: &LocalRays<L>) -> [L::Vector; 3] {
+        let ([alpha, beta, gamma], [d_alpha, d_beta, d_gamma]) = (local.foot, local.direction);
         let [h_aa, h_ab, h_bb] = layout.load3(l, &self.hessian);
         // The slopes of the paraboloid by alpha and by beta.
         let slope_a = l.mul_add(h_aa, alpha, l.mul(h_ab, beta));
@@ -148,62 +197,26 @@ impl Subpatch8 {
         let c = l.mul_add(l.splat(-0.5), height, l.sub(gamma, layout.load(l, &self.offset)));
         let b = l.sub(d_gamma, l.mul_add(slope_a, d_alpha, l.mul(slope_b, d_beta)));
         let a = l.scale(-0.5, l.mul_add(turn_a, d_alpha, l.mul(turn_b, d_beta)));
-
-        let error = layout.load(l, &self.error);
-        let b_squared = l.mul(b, b);
-        let discriminant = l.mul_add(l.splat(-4.0), l.mul(a, c), b_squared);
-        let spread = l.scale(4.0, l.mul(l.abs(a), error));
-        let steepness = l.sub(discriminant, spread);
-        let [error_a, error_b] = [layout.load(l, &self.slope_error[0]), layout.load(l, &self.slope_error[1])];
-        let slope_error = l.mul_add(error_a, l.abs(d_alpha), l.mul(error_b, l.abs(d_beta)));
-        let decided = l.less(l.mul_add(l.splat(2e-6), b_squared, l.mul(slope_error, slope_error)), steepness);
-        let none = l.less(l.mul_add(l.splat(2e-6), b_squared, l.add(discriminant, spread)), l.splat(0.0));
-
-        let sign = l.sign(b);
-        let sum = l.mul_add(sign, l.sqrt(discriminant), b);
-        let slack = l.div(error, l.sqrt(steepness));
-        let reach = [
-            l.mul_add(l.abs(d_alpha), slack, layout.load(l, &self.extent[0])),
-            l.mul_add(l.abs(d_beta), slack, layout.load(l, &self.extent[1])),
-        ];
-        let first = BranchRoots::new(l, l.div(l.scale(-2.0, c), sum), nearest, &at, &along);
-        let second = BranchRoots::new(l, l.div(l.scale(-0.5, sum), a), nearest, &at, &along);
-        let lanes = layout.active(self.count);
-        let decided_lanes = l.bits(decided) & lanes;
-        let branches = [first.in_range(l, ray, slack, reach), second.in_range(l, ray, slack, reach)];
-        let mut undecided = !(decided_lanes | l.bits(none)) & lanes;
-        if undecided != 0 {
-            undecided &= self.oriented_boxes_hit(l, layout, ray, nearest, &at, &along);
-        }
-        Candidates {
-            branches: (branches[0] & decided_lanes) | (branches[1] & decided_lanes) << LANES,
-            undecided,
-            z: [l.store(first.z), l.store(second.z)],
-            start: [[l.store(first.alpha), l.store(first.beta)], [l.store(second.alpha), l.store(second.beta)]],
-            slack: l.store(slack),
-            slope: l.store(sign),
-        }
+        [c, b, a]
     }
 
-    /// The lanes in which a ray hits the oriented box of a subpatch; `at` and `along` are the ray's nearest point and
-    /// direction in the coordinates of the subpatch.
+    /// The lanes in which a ray hits the oriented box of a subpatch.
     #[inline(always)]
     fn oriented_boxes_hit<L: Lanes>(
         &self,
         l: L,
         layout: impl LaneLayout,
         ray: &LaneRays<L>,
-        nearest: L::Vector,
-        at: &[L::Vector; 3],
-        along: &[L::Vector; 3],
+        local: &LocalRays<L>,
     ) -> u32 {
+        let LocalRays { nearest, foot, direction } = *local;
         let (mut near, mut far) = (l.sub(ray.z_min, nearest), l.sub(ray.z_max, nearest));
         for k in 0..3 {
-            // A ray parallel to a face gets a speed below rounding, so that no division is by zero.
-            let speed = l.mul(l.sign(along[k]), l.max(l.abs(along[k]), l.splat(1e-12)));
+            // A ray parallel to a face gets a speed below rounding, so that nothing divides by zero.
+            let speed = l.mul(l.sign(direction[k]), l.max(l.abs(direction[k]), l.splat(1e-12)));
             let extent = layout.load(l, &self.extent[k]);
-            let low = l.div(l.sub(l.sub(l.splat(0.0), extent), at[k]), speed);
-            let high = l.div(l.sub(extent, at[k]), speed);
+            let low = l.div(l.sub(l.sub(l.splat(0.0), extent), foot[k]), speed);
+            let high = l.div(l.sub(extent, foot[k]), speed);
             near = l.max(near, l.min(low, high));
             far = l.min(far, l.max(low, high));
         }
@@ -211,7 +224,17 @@ impl Subpatch8 {
     }
 }
 
-/// The intersections of rays with paraboloids on one branch, by lanes.
+/// Rays in the coordinates alpha, beta, gamma of subpatches, by lanes.
+struct LocalRays<L: Lanes> {
+    /// z of each ray's point nearest to the center of the subpatch.
+    nearest: L::Vector,
+    /// Coordinates of this point.
+    foot: [L::Vector; 3],
+    /// Coordinates of the direction.
+    direction: [L::Vector; 3],
+}
+
+/// Where rays meet paraboloids on one of their branches, by lanes.
 struct BranchRoots<L: Lanes> {
     z: L::Vector,
     alpha: L::Vector,
@@ -221,8 +244,13 @@ struct BranchRoots<L: Lanes> {
 impl<L: Lanes> BranchRoots<L> {
     /// The root at w.
     #[inline(always)]
-    fn new(l: L, w: L::Vector, nearest: L::Vector, at: &[L::Vector; 3], along: &[L::Vector; 3]) -> Self {
-        Self { z: l.add(w, nearest), alpha: l.mul_add(w, along[0], at[0]), beta: l.mul_add(w, along[1], at[1]) }
+    fn new(l: L, w: L::Vector, local: &LocalRays<L>) -> Self {
+        let LocalRays { nearest, foot, direction } = *local;
+        Self {
+            z: l.add(w, nearest),
+            alpha: l.mul_add(w, direction[0], foot[0]),
+            beta: l.mul_add(w, direction[1], foot[1]),
+        }
     }
 
     /// The lanes in which a root of the surface may lie within the subpatch and within the range of the ray.
