@@ -104,8 +104,8 @@ impl FilmSums {
         self.width as usize * self.height as usize
     }
 
-    /// Adds the next iteration: the radiance from photons, with this weight, and the camera samples, with their own weights. Both slices hold
-    /// one value for each pixel of the film.
+    /// Adds the next iteration: the radiance from photons, with this weight, and the camera samples, with their own weights. Both slices
+    /// hold one value for each pixel of the film.
     pub fn commit(&mut self, weight: f64, photons: &[Rgb], samples: &[PixelSamples]) {
         debug_assert_eq!([photons.len(), samples.len()], [self.pixel_count(); 2], "an iteration covers the film");
         self.all.resize(self.pixel_count(), PixelSums::default());

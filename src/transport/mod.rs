@@ -15,8 +15,8 @@
 //! Light that a Phong lobe shows belongs to the component that it would without the lobe; photons in the lobe belong to
 //! interreflection.
 //!
-//! A pass is a function of the world, the plan, the seed and the number of the iteration ([`PassInput`]), and returns owned data. `docs/method.md` holds the
-//! equations. The folders are in the order in which light meets them; each uses only folders above it:
+//! A pass is a function of the world, the plan, the seed and the number of the iteration ([`PassInput`]), and returns owned data.
+//! `docs/method.md` holds the equations. The folders are in the order in which light meets them; each uses only folders above it:
 //!
 //! | file | holds |
 //! |---|---|

@@ -1,5 +1,5 @@
-//! SIMD vectors of eight `f32`. Functions are compiled for AVX2 and for the instructions that the target always has; the processor decides at
-//! run time. (The crate `wide` decides at compile time, and so for vectors of four.)
+//! SIMD vectors of eight `f32`. Functions are compiled for AVX2 and for the instructions that the target always has; the processor decides
+//! at run time. (The crate `wide` decides at compile time, and so for vectors of four.)
 //!
 //! | file | holds |
 //! |---|---|

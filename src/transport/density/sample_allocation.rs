@@ -23,8 +23,8 @@ const SAMPLES_PER_DEVIATION: f64 = 24.0;
 /// Most samples beyond the least number, in the mean over the film: a pixel then has four samples on average, as before
 /// the first refinement, and iterations do not become slower.
 const MOST_EXTRA_SAMPLES: f64 = 3.0;
-/// Step by which samples per deviation are lowered to keep to [`MOST_EXTRA_SAMPLES`], in halvings: the sum of the counts falls by at most 8 %
-/// a step.
+/// Step by which samples per deviation are lowered to keep to [`MOST_EXTRA_SAMPLES`], in halvings: a step takes some 8 % off the sum of
+/// the counts.
 const STEP: f64 = 0.125;
 /// Most steps; then every pixel gets the least number.
 const MOST_STEPS: usize = 100;

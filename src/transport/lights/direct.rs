@@ -86,8 +86,8 @@ impl DirectLight<'_> {
         if self.world.aggregate.occluded(&shadow_ray) { Rgb::ZERO } else { radiance }
     }
 
-    /// The MIS weight of camera paths, 0 to 1, for light that a vertex scatters from a point of a light to the lobe that shows the vertex; 1
-    /// without a lobe.
+    /// The MIS weight of camera paths, 0 to 1, for light that a vertex scatters from a point of a light to the lobe that shows the vertex;
+    /// 1 without a lobe.
     #[inline]
     pub(in crate::transport) fn camera_weight(&self, light: usize, light_point: DVec3, seen: Option<MisVertex>) -> f64 {
         let Some(MisVertex { lobe, position, scattered }) = seen else { return 1.0 };

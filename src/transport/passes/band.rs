@@ -35,8 +35,8 @@ pub struct Contribution {
 }
 
 impl Band {
-    /// Adds up the light of each pixel of some rows; `gathered` holds the light at each visible point of `seen`, in the order of the points.
-    /// Light that a directly seen Phong lobe shows goes to the lobe's sample where neighbours reuse it.
+    /// Adds up the light of each pixel of some rows; `gathered` holds the light at each visible point of `seen`, in the order of the
+    /// points. Light that a directly seen Phong lobe shows goes to the lobe's sample where neighbours reuse it.
     pub fn new(input: &PassInput, rows: &Rows, seen: CameraBatch, gathered: &[Gathered]) -> Self {
         let (pixels, first) = (seen.samples.len(), rows.start * input.plan.camera.width);
         let mut photons = vec![Rgb::ZERO; pixels];

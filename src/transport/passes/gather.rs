@@ -263,8 +263,8 @@ impl Gatherer<'_> {
         Disc::new(self.input.world, point, polygon, radius, self.input.plan.corrects_edges())
     }
 
-    /// The radiance that a point adds to its pixel with the photons of a map. A Phong lobe reflects photons of the caustic and the glossy map
-    /// alone: camera paths find all other light in it.
+    /// The radiance that a point adds to its pixel with the photons of a map. A Phong lobe reflects photons of the caustic and the glossy
+    /// map alone: camera paths find all other light in it.
     #[inline(always)]
     fn radiance<L: Lanes>(
         &self,

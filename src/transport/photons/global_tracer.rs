@@ -167,8 +167,8 @@ impl<'a> GlobalPhotonTracer<'a> {
 }
 
 /// Samples diffuse reflection, the lobe or absorption in proportion to the flux that each would leave; returns the new direction, `None`
-/// for absorption. This Russian roulette keeps the flux of all photons about equal. It is not [`roulette`](crate::transport::points::roulette),
-/// which only ends paths below a threshold: here the same number also chooses the event.
+/// for absorption. This Russian roulette keeps the flux of all photons about equal. It is not
+/// [`roulette`](crate::transport::points::roulette), which only ends paths below a threshold: here the same number also chooses the event.
 fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut Sampler) -> Option<DVec3> {
     let Vertex { scattering, n_side, n_shade, wo: wi, .. } = *vertex;
     let (u, choice): (DVec2, f64) = (sampler.next_2d(), sampler.next_1d());
@@ -270,8 +270,8 @@ mod tests {
         }
     }
 
-    /// Where half of the light is scattered and half mirrored, arrival k (from 0) comes from diffuse reflection with 1/2, and from the mirror
-    /// after some diffuse event with `1/2 (1 - 2^(1 - k))`.
+    /// Where half of the light is scattered and half mirrored, arrival k (from 0) comes from diffuse reflection with 1/2, and from the
+    /// mirror after some diffuse event with `1/2 (1 - 2^(1 - k))`.
     #[test]
     fn light_from_mirrors_is_kept_apart() {
         let found = traced("polished", 4);

@@ -18,8 +18,8 @@ use crate::world::World;
 /// Greatest radius, except for the least ones of [`Radii`], over the distance to the next object: its light changes
 /// within a fraction of the distance \[Ward88\].
 const MAX_CLEARANCE_FRACTION: f64 = 0.5;
-/// Least radius in a Phong lobe over the radius without one: the lobe averages over several discs, so each disc may be noisier. Measured: it takes
-/// a tenth off the error at equal time of a glossy floor, a fifth in a room of gloss.
+/// Least radius in a Phong lobe over the radius without one: the lobe averages over several discs, so each disc may be noisier. Measured:
+/// it takes a tenth off the error at equal time of a glossy floor, a fifth in a room of gloss.
 const LEAST_LOBE_FRACTION: f64 = 0.3;
 /// Greatest radius on a sphere over the sphere's radius: the disc must stay nearly flat.
 pub(super) const MAX_SPHERE_FRACTION: f64 = 0.32;
