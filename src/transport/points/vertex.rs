@@ -27,7 +27,7 @@ pub(in crate::transport) struct Vertex {
 impl Vertex {
     /// The vertex of a path whose ray met an object, given by the object's and the material's index. Camera paths, photons and caustic
     /// photons make their vertices here.
-    #[inline]
+    #[inline(always)]
     pub(in crate::transport) fn at_hit(
         world: &World,
         ray: &Ray,
