@@ -20,8 +20,8 @@ pub use portable::Portable;
 /// Numbers in a vector.
 pub const LANES: usize = 8;
 
-/// A set of vector instructions. Comparisons return masks: in each lane all bits are set where the comparison holds, else
-/// none.
+/// A set of vector instructions. Comparisons return masks: all bits of a lane are set where the comparison holds; else
+/// all bits are clear.
 pub trait Lanes: Copy {
     /// [`LANES`] numbers or masks.
     type Vector: Copy;
