@@ -84,7 +84,9 @@ fn speed(c: &mut Criterion) {
     for (name, nets) in [("hill", hill()), ("teapot", teapot())] {
         let patches = aggregate(&nets);
         let newton: Vec<NewtonPatch> = nets.iter().map(|net| NewtonPatch::new(*net)).collect();
-        let meshes = [64, 256].map(|steps| (steps, Triangles::new(&QuadMesh::new(&nets, steps))));
+        let meshes = [64, 256].map(|steps| {
+            (steps, Triangles::new(&QuadMesh::new(&nets.iter().map(|net| Patch::new(*net)).collect::<Vec<_>>(), steps)))
+        });
         for (kind, rays) in [("incoherent", incoherent(&nets)), ("coherent", coherent(&nets, &patches))] {
             let mut group = c.benchmark_group(format!("{name}/{kind}"));
             group.throughput(Throughput::Elements(rays.len() as u64));

@@ -19,6 +19,9 @@ fn text(file: &SceneFile, plan: &PlanSummary) -> String {
         let verdict = if note.rendered { "rendered" } else { "skipped " };
         text += &format!("{verdict}  {}: {}\n", note.item, note.reason);
     }
+    for warning in &plan.warnings {
+        text += &format!("warning   {} {}; {}\n", warning.subject, warning.fault, warning.remedy);
+    }
     text
 }
 

@@ -2,6 +2,7 @@
 
 use crate::film::LinearImage;
 use crate::transport::{Counters, PlanNote};
+use crate::world::Warning;
 use std::sync::Arc;
 
 /// A picture of a scene at some moment of its rendering.
@@ -21,11 +22,13 @@ pub struct Frame {
     pub plan: Arc<PlanSummary>,
 }
 
-/// The decisions of a plan: which components are rendered, which are skipped, and why.
+/// The decisions of a plan: which components are rendered, which are skipped, and why; warnings about the scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PlanSummary {
     /// Every decision.
     pub notes: Vec<PlanNote>,
+    /// Faults of the scene that do not keep it from being rendered.
+    pub warnings: Vec<Warning>,
 }
 
 /// Statistics of a picture's rendering.

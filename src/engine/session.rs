@@ -7,7 +7,7 @@ use super::pass_meter::{Pass, PassMeter, Work};
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
 use crate::transport::{Cancel, Component, Contribution, Counters, FilmStatistics, PassInput, Plan};
-use crate::world::{Camera, PrepareError, World, prepare};
+use crate::world::{Camera, PrepareError, World, prepare, warnings};
 use std::sync::Arc;
 use std::time::Instant;
 use thiserror::Error;
@@ -71,7 +71,7 @@ impl Session {
         let world = prepare(&file.scene, &file.location, previous.map(|session| &session.world))?;
         check_memory(&world.camera)?;
         let plan = Plan::new(&world);
-        let summary = Arc::new(PlanSummary { notes: plan.notes.clone() });
+        let summary = Arc::new(PlanSummary { notes: plan.notes.clone(), warnings: warnings(&file.scene, &world) });
         let film = FilmSums::new(plan.camera.width, plan.camera.height);
         let passes = PassSeconds { prepare: start.elapsed().as_secs_f64(), ..PassSeconds::default() };
         Ok(Self {
@@ -91,7 +91,8 @@ impl Session {
     pub fn only(mut self, component: Option<Component>) -> Self {
         if let Some(component) = component {
             self.plan = self.plan.only(component);
-            self.summary = Arc::new(PlanSummary { notes: self.plan.notes.clone() });
+            let warnings = self.summary.warnings.clone();
+            self.summary = Arc::new(PlanSummary { notes: self.plan.notes.clone(), warnings });
         }
         self
     }

@@ -74,7 +74,7 @@ impl Primitive {
 
     /// The nearest hit as (t, u, v); `None` for a miss.
     #[inline(always)]
-    pub(super) fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
+    pub fn intersect(&self, ray: &Ray) -> Option<(f64, f64, f64)> {
         match self {
             Self::Quad(quad) => quad.intersect(ray),
             Self::Sphere(sphere) => sphere.intersect(ray).map(|t| (t, 0.0, 0.0)),

@@ -1,4 +1,4 @@
-use crate::geometry::bezier::ControlNet;
+use crate::geometry::bezier::{ControlNet, Patch};
 use glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
 
@@ -14,6 +14,12 @@ pub struct Bezier {
 }
 
 impl Bezier {
+    /// The patches in world space. A transform that mirrors the surface keeps its outside.
+    pub fn placed_patches(&self) -> impl Iterator<Item = Patch> {
+        let is_mirrored = self.transform.is_mirroring();
+        self.placed_nets().into_iter().map(move |net| Patch::new(net).mirrored(is_mirrored))
+    }
+
     /// The control nets in world space.
     pub fn placed_nets(&self) -> Vec<ControlNet> {
         let world_from_object = self.transform.world_from_object();
@@ -39,6 +45,11 @@ impl Default for Transform {
 }
 
 impl Transform {
+    /// Whether it mirrors: an odd number of factors is negative.
+    pub fn is_mirroring(&self) -> bool {
+        self.scale.to_array().iter().filter(|factor| **factor < 0.0).count() % 2 == 1
+    }
+
     /// The affine map from object space to world space.
     pub fn world_from_object(&self) -> DAffine3 {
         let [x, y, z] = self.rotate.to_array().map(f64::to_radians);

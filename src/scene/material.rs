@@ -49,6 +49,8 @@ pub enum MaterialModel {
         tint: Color,
         /// The Beer-Lambert absorption coefficient of the inside, per scene unit.
         absorption: Rgb,
+        /// Where bodies overlap, the one with the highest priority counts.
+        priority: i32,
     },
 }
 

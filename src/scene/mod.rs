@@ -45,7 +45,7 @@ pub use film::{Film, ToneCurve};
 pub use light::{Emitter, Light};
 pub use location::Location;
 pub use material::{Color, Material, MaterialModel, Relief};
-pub use object::{Object, Shape};
+pub use object::{BodyKey, Object, Shape};
 pub use problem::Problem;
 pub use render::Render;
 pub use surface_export::{SurfaceExport, SurfaceFormat};

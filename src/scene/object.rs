@@ -10,6 +10,34 @@ pub struct Object {
     pub material: String,
     /// The shape.
     pub shape: Shape,
+    /// The piece of glass that it bounds, together with all objects of the same body; `None` for the one of all objects with
+    /// the same glass material and no body.
+    pub body: Option<String>,
+}
+
+/// What makes objects of glass bound one body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyKey<'a> {
+    /// The body that the objects name.
+    Named(&'a str),
+    /// The material of objects that name no body.
+    Material(&'a str),
+}
+
+impl<'a> BodyKey<'a> {
+    /// The name of the body or of the material.
+    pub fn name(&self) -> &'a str {
+        match self {
+            Self::Named(name) | Self::Material(name) => name,
+        }
+    }
+}
+
+impl Object {
+    /// The body that the object bounds if it is of glass.
+    pub fn body_key(&self) -> BodyKey<'_> {
+        self.body.as_deref().map_or(BodyKey::Material(&self.material), BodyKey::Named)
+    }
 }
 
 /// The shape of an object.

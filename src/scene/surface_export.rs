@@ -1,5 +1,5 @@
 use super::{Object, Shape};
-use crate::geometry::bezier::{ControlNet, QuadMesh, write_bpt};
+use crate::geometry::bezier::{Patch, QuadMesh, write_bpt};
 use std::{num::NonZeroUsize, path::Path};
 
 /// The Bezier patches of objects in world space, for other programs.
@@ -16,11 +16,11 @@ use std::{num::NonZeroUsize, path::Path};
 /// assert_eq!(bpt.lines().count(), 1 + 32 * 17);
 /// # Ok::<(), patchlight::scene::SceneError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct SurfaceExport {
     /// The names of the objects, joined by `+`.
     pub name: String,
-    nets: Vec<ControlNet>,
+    patches: Vec<Patch>,
 }
 
 /// The file format of an exported surface.
@@ -50,20 +50,24 @@ impl SurfaceExport {
 
     /// The patches of all Bezier objects; `None` if there are none.
     pub fn of<'a>(objects: impl IntoIterator<Item = &'a Object>) -> Option<Self> {
-        let (mut names, mut nets) = (Vec::new(), Vec::new());
+        let (mut names, mut patches) = (Vec::new(), Vec::new());
         for object in objects {
             let Shape::Bezier(bezier) = &object.shape else { continue };
             names.push(object.name.as_str());
-            nets.extend(bezier.placed_nets());
+            patches.extend(bezier.placed_patches());
         }
-        (!names.is_empty()).then(|| Self { name: names.join("+"), nets })
+        (!names.is_empty()).then(|| Self { name: names.join("+"), patches })
     }
 
     /// The text of the file. A mesh has `steps` quads along each side of each patch.
     pub fn text(&self, format: SurfaceFormat, steps: NonZeroUsize) -> String {
         match format {
-            SurfaceFormat::Obj => QuadMesh::new(&self.nets, steps.get()).to_obj(&self.name),
-            SurfaceFormat::Bpt => write_bpt(&self.nets),
+            SurfaceFormat::Obj => QuadMesh::new(&self.patches, steps.get()).to_obj(&self.name),
+            // The format has no normals: the outside is along `dS/du x dS/dv`.
+            SurfaceFormat::Bpt => {
+                let facing_out = |p: &Patch| if p.is_mirrored() { p.net().transposed() } else { *p.net() };
+                write_bpt(&self.patches.iter().map(facing_out).collect::<Vec<_>>())
+            }
         }
     }
 }

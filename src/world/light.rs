@@ -57,6 +57,22 @@ impl Light {
         }
     }
 
+    /// Points that tell in which bodies the light is, this far off its surface: the center of a point light, some points of an area
+    /// light.
+    pub(super) fn test_points(&self, off_surface: f64) -> Vec<DVec3> {
+        match self {
+            Self::Point { position, .. } => vec![*position],
+            Self::Sphere { sphere, .. } => {
+                let outward = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+                outward.map(|n| sphere.center + (sphere.radius + off_surface) * n).collect()
+            }
+            Self::Quad { quad, .. } => {
+                let inset = [(0.5, 0.5), (0.01, 0.01), (0.99, 0.01), (0.99, 0.99), (0.01, 0.99)];
+                inset.map(|(u, v)| quad.position(u, v) + off_surface * quad.normal()).to_vec()
+            }
+        }
+    }
+
     /// The radiance towards `direction` from a point of an area light with this outward or front normal.
     pub fn emitted(&self, n_geom: DVec3, direction: DVec3) -> Rgb {
         match self {

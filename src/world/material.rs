@@ -24,7 +24,7 @@ pub(super) enum Model {
     Phong { albedo: Source, specular: Source, exponent: f64 },
     Polished { albedo: Source, reflectance: Source },
     Mirror { reflectance: Source },
-    Glass { ior: f64, tint: Source, absorption: Rgb },
+    Glass { tint: Source },
 }
 
 /// A material with its textures.
@@ -66,8 +66,6 @@ pub enum Lobe {
     },
     /// A smooth dielectric interface.
     Glass {
-        /// Index of refraction of the inside.
-        ior: f64,
         /// The factor of transmitted light.
         tint: Rgb,
     },
@@ -101,7 +99,7 @@ impl Model {
             Model::Phong { albedo, specular, .. } => [Some(albedo), Some(specular)],
             Model::Polished { albedo, reflectance } => [Some(albedo), Some(reflectance)],
             Model::Mirror { reflectance } => [Some(reflectance), None],
-            Model::Glass { tint, .. } => [Some(tint), None],
+            Model::Glass { tint } => [Some(tint), None],
         }
     }
 }
@@ -132,7 +130,7 @@ impl Material {
                 (albedo.sample(uv), Lobe::Mirror { reflectance: reflectance.sample(uv) })
             }
             Model::Mirror { reflectance } => (Rgb::ZERO, Lobe::Mirror { reflectance: reflectance.sample(uv) }),
-            Model::Glass { ior, tint, .. } => (Rgb::ZERO, Lobe::Glass { ior: *ior, tint: tint.sample(uv) }),
+            Model::Glass { tint } => (Rgb::ZERO, Lobe::Glass { tint: tint.sample(uv) }),
         };
         Scattering { albedo: within_energy(albedo, lobe), lobe }
     }
@@ -185,19 +183,6 @@ impl Material {
             Model::Phong { albedo, specular, .. } => (albedo.bound() + specular.bound()).min(1.0),
             Model::Mirror { .. } | Model::Glass { .. } => 0.0,
         }
-    }
-
-    /// The absorption inside of glass, per scene unit; `None` if it is zero, or for other materials.
-    pub fn absorption(&self) -> Option<Rgb> {
-        match &self.model {
-            Model::Glass { absorption, .. } if *absorption != Rgb::ZERO => Some(*absorption),
-            _ => None,
-        }
-    }
-
-    /// The index of refraction of glass; 1 for other materials.
-    pub fn ior(&self) -> f64 {
-        if let Model::Glass { ior, .. } = &self.model { *ior } else { 1.0 }
     }
 }
 

@@ -8,10 +8,13 @@
 //! | `material` | [`Material`] with its textures; [`Scattering`] at a point |
 //! | `shared_edges` | [`SharedEdges`] between the patches of an object |
 //! | `surface` | [`Surface`], the object or light of a primitive; [`SurfacePoint`], a hit as light transport reads it |
+//! | `bodies/` | bodies of glass: which of them contain a point, and which of these counts |
 //! | `prepared` | [`World`] |
 //! | `error` | [`PrepareError`] |
 //! | `prepare` | [`prepare()`]: from a scene to a world, reusing a previous world |
+//! | `warnings` | [`warnings()`]: faults of scenes that can be rendered |
 
+mod bodies;
 mod camera;
 mod error;
 mod light;
@@ -21,7 +24,9 @@ mod prepared;
 mod shared_edges;
 mod surface;
 mod texture;
+mod warnings;
 
+pub use bodies::{Body, Contacts, Media, Origin};
 pub use camera::{Camera, Projected};
 pub use error::PrepareError;
 pub use light::Light;
@@ -31,3 +36,4 @@ pub use prepared::World;
 pub use shared_edges::SharedEdges;
 pub use surface::{Surface, SurfacePoint};
 pub use texture::Image;
+pub use warnings::{Warning, warnings};

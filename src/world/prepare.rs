@@ -1,9 +1,11 @@
+use super::bodies::{self, Surroundings};
 use super::material::{Model, Relief, Source};
 use super::shared_edges::shared_edges;
 use super::texture::{self, TextureKey};
-use super::{Camera, Image, Light, Material, PrepareError, SharedEdges, Surface, World};
+use super::{Camera, Contacts, Image, Light, Material, PrepareError, SharedEdges, Surface, World};
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
+use crate::math::float::SELF_HIT_OFFSET;
 use crate::math::{Aabb, Rgb};
 use crate::scene::{self, Emitter, Location, MaterialModel, Scene, Shape, TextureUse};
 use glam::DVec3;
@@ -21,8 +23,9 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
     let mut textures = Textures { scene, location, previous, decoded: Vec::new() };
     let materials = scene.materials.iter().map(|m| textures.material(m)).collect::<Result<Vec<_>, _>>()?;
     let lights: Vec<Light> = scene.lights.iter().map(light).filter(|l| l.power() != Rgb::ZERO).collect();
-    let (descriptions, surfaces) = surfaces(scene, &lights)?;
+    let (descriptions, mut surfaces) = surfaces(scene, &lights)?;
     let aggregate = aggregate(descriptions, previous);
+    let bodies = bodies::bodies(scene, aggregate.primitives(), &mut surfaces);
     let points = lights.iter().filter_map(|light| match light {
         Light::Point { position, .. } => Some(*position),
         _ => None,
@@ -31,7 +34,22 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
     let center = if bounds.is_empty() { scene.camera.target } else { bounds.center() };
     let view_distance = scene.camera.position.distance(scene.camera.target);
     let radius = if bounds.diagonal() > 0.0 { 0.5 * bounds.diagonal() } else { view_distance.max(1.0) };
+    let largest = |p: &Primitive| {
+        let Aabb { min, max } = p.bounds();
+        min.abs().max(max.abs()).max_element()
+    };
+    let contacts = Contacts::new(aggregate.primitives(), &surfaces, |a, b| {
+        SELF_HIT_OFFSET * (largest(a).min(largest(b)) + radius)
+    });
+    let around = Surroundings { aggregate: &aggregate, surfaces: &surfaces, bodies: &bodies };
+    let camera_media = around.media(scene.camera.position);
+    let off_surface = 4.0 * SELF_HIT_OFFSET * (aggregate.bounds().diagonal() + radius);
+    let light_origins = lights.iter().map(|light| around.origin(light.test_points(off_surface))).collect();
     Ok(World {
+        contacts,
+        camera_media,
+        light_origins,
+        bodies,
         aggregate,
         surfaces,
         materials,
@@ -45,14 +63,15 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
     })
 }
 
-/// A primitive before its tree is built.
+/// A primitive before its tree is built; for a patch, its net and whether its transform mirrors.
 #[allow(clippy::large_enum_variant, reason = "lives only while the tree is built; most of a large scene are patches")]
 enum Description {
     Ready(Primitive),
-    Patch(Box<ControlNet>),
+    Patch(Box<ControlNet>, bool),
 }
 
-fn light(light: &scene::Light) -> Light {
+/// The light of a scene, as the renderer reads it.
+pub(super) fn light(light: &scene::Light) -> Light {
     match light.emitter {
         Emitter::Point { position, intensity } => Light::Point { position, intensity },
         Emitter::Sphere { center, radius, radiance } => Light::Sphere { sphere: Sphere { center, radius }, radiance },
@@ -70,11 +89,12 @@ fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Su
             let user = format!("object `{}`", object.name);
             PrepareError::UnknownName { user, kind: "material", name: object.material.clone() }
         })?;
-        let surface = |shared| Surface::Object { object: index as u32, material: material as u32, shared };
+        let surface = |shared| Surface::Object { object: index as u32, material: material as u32, body: None, shared };
         if let Shape::Bezier(bezier) = &object.shape {
             let nets = bezier.placed_nets();
             surfaces.extend(shared_edges(&nets).into_iter().map(surface));
-            descriptions.extend(nets.into_iter().map(|net| Description::Patch(Box::new(net))));
+            let is_mirrored = bezier.transform.is_mirroring();
+            descriptions.extend(nets.into_iter().map(|net| Description::Patch(Box::new(net), is_mirrored)));
         } else {
             surfaces.push(surface(SharedEdges::default()));
             descriptions.push(Description::Ready(simple_primitive(&object.shape)));
@@ -109,10 +129,14 @@ fn aggregate(descriptions: Vec<Description>, previous: Option<&World>) -> Aggreg
         .enumerate()
         .map(|(index, description)| match (description, old.get(index)) {
             (Description::Ready(primitive), _) => primitive,
-            (Description::Patch(net), Some(Primitive::Patch(patch))) if *patch.net() == *net => {
+            (Description::Patch(net, is_mirrored), Some(Primitive::Patch(patch)))
+                if (patch.net(), patch.is_mirrored()) == (&*net, is_mirrored) =>
+            {
                 Primitive::Patch(patch.clone())
             }
-            (Description::Patch(net), _) => Primitive::Patch(Arc::new(Patch::new(*net))),
+            (Description::Patch(net, is_mirrored), _) => {
+                Primitive::Patch(Arc::new(Patch::new(*net).mirrored(is_mirrored)))
+            }
         })
         .collect();
     let same_kinds = old.len() == primitives.len()
@@ -153,9 +177,7 @@ impl Textures<'_> {
                 Model::Polished { albedo: source(albedo)?, reflectance: source(reflectance)? }
             }
             MaterialModel::Mirror { reflectance } => Model::Mirror { reflectance: source(reflectance)? },
-            MaterialModel::Glass { ior, tint, absorption } => {
-                Model::Glass { ior: *ior, tint: source(tint)?, absorption: *absorption }
-            }
+            MaterialModel::Glass { tint, .. } => Model::Glass { tint: source(tint)? },
         };
         let relief = match &material.relief {
             None => None,

@@ -1,10 +1,15 @@
+use super::bodies::{Surroundings, touching};
 use super::texture::TextureKey;
-use super::{Camera, Image, Light, Material, Scattering, Surface, SurfacePoint};
+use super::{Body, Camera, Contacts, Image, Light, Material, Media, Origin, Scattering, Surface, SurfacePoint};
 use crate::geometry::{Aggregate, Hit};
 use crate::math::float::SELF_HIT_OFFSET;
 use crate::math::{Ray, Rgb};
+use arrayvec::ArrayVec;
 use glam::DVec3;
 use std::sync::Arc;
+
+/// Surfaces of glass that may coincide in one point.
+const MAX_COINCIDENT: usize = 8;
 
 /// A scene as the renderer reads it.
 #[derive(Clone, Debug)]
@@ -17,6 +22,14 @@ pub struct World {
     pub materials: Vec<Material>,
     /// The lights with power above zero, in the order of the scene.
     pub lights: Vec<Light>,
+    /// For each light, the media in which its paths begin.
+    pub light_origins: Vec<Origin>,
+    /// The bodies of glass, in ascending order of their rank: of several around a point, the last one counts.
+    pub bodies: Vec<Body>,
+    /// Surfaces that coincide with surfaces of glass.
+    pub contacts: Contacts,
+    /// The media around the camera.
+    pub camera_media: Media,
     /// The camera, with the pixel grid of the film.
     pub camera: Camera,
     /// The radiance along rays that leave the scene.
@@ -37,11 +50,87 @@ impl World {
         self.textures.iter().map(|(_, image)| image)
     }
 
+    /// The nearest hit of a ray; `None` for a miss. Where glass touches an opaque surface or a light, it is on that one.
+    #[inline]
+    pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        self.aggregate.closest_hit(ray).map(|hit| self.on_opaque(ray, hit))
+    }
+
+    /// A hit, moved to the opaque surface or the light that coincides with the surface of glass that was hit, if there is one.
+    #[inline]
+    pub fn on_opaque(&self, ray: &Ray, hit: Hit) -> Hit {
+        if self.contacts.of(hit.primitive).is_empty() { hit } else { self.opaque_contact(ray, hit) }
+    }
+
+    #[inline(never)]
+    fn opaque_contact(&self, ray: &Ray, hit: Hit) -> Hit {
+        let point = self.surface_point(ray, hit);
+        let mut opaque = self.contacts.of(hit.primitive).iter().filter(|&&q| self.body_of(q).is_none());
+        let touched = opaque.find_map(|&q| self.touching(q, &point));
+        touched.map_or(hit, |(touched, ..)| Hit { t: hit.t, ..touched })
+    }
+
     /// The surface point of a ray's hit.
     pub fn surface_point(&self, ray: &Ray, hit: Hit) -> SurfacePoint {
         let primitive = &self.aggregate.primitives()[hit.primitive as usize];
         let (position, n_geom) = primitive.surface(ray, &hit);
         SurfacePoint { position, n_geom, front: ray.direction.dot(n_geom) < 0.0, hit }
+    }
+
+    /// The hit on a primitive that coincides with another one at this point, and the primitive's geometric normal there.
+    fn touching(&self, primitive: u32, point: &SurfacePoint) -> Option<(Hit, DVec3)> {
+        let shape = &self.aggregate.primitives()[primitive as usize];
+        touching(shape, primitive, [point.position, point.n_geom], self.rounding(point.position))
+    }
+
+    /// The rank of the body that a primitive bounds; `None` if it is not of glass.
+    #[inline]
+    pub fn body_of(&self, primitive: u32) -> Option<u32> {
+        match self.surfaces[primitive as usize] {
+            Surface::Object { body, .. } => body,
+            Surface::Light(_) => None,
+        }
+    }
+
+    /// The media before and behind the interface of glass at a point, for a path in these media: it crosses all surfaces that coincide
+    /// there at once.
+    #[inline]
+    pub fn across(&self, point: &SurfacePoint, media: &Media) -> (Media, Media) {
+        let primitive = point.hit.primitive;
+        let mut crossings: ArrayVec<(u32, bool), MAX_COINCIDENT> = ArrayVec::new();
+        crossings.extend(self.body_of(primitive).map(|body| (body, point.front)));
+        for &other in self.contacts.of(primitive) {
+            let (Some(body), Some((_, n_geom))) = (self.body_of(other), self.touching(other, point)) else { continue };
+            // A full list loses surfaces beyond the eighth in one place.
+            let _full = crossings.try_push((body, n_geom.dot(point.n_side()) > 0.0));
+        }
+        media.across(&crossings)
+    }
+
+    /// The body that counts in these media; `None` in air.
+    #[inline]
+    pub fn body(&self, media: &Media) -> Option<&Body> {
+        media.body().map(|rank| &self.bodies[rank as usize])
+    }
+
+    /// Transmittance of these media over a distance, scene units.
+    #[inline]
+    pub fn transmittance(&self, media: &Media, distance: f64) -> Rgb {
+        self.body(media).map_or(Rgb::ONE, |body| body.transmittance(distance))
+    }
+
+    /// The media in which a path begins at a point of a light, which for an area light is to lie just off its surface.
+    pub fn media_at_light(&self, light: usize, point: DVec3) -> Media {
+        match &self.light_origins[light] {
+            Origin::Uniform(media) => media.clone(),
+            Origin::Mixed => self.media_around(point),
+        }
+    }
+
+    /// The bodies around a point: those whose surfaces, seen from the point, show their inside.
+    pub fn media_around(&self, point: DVec3) -> Media {
+        let (aggregate, surfaces, bodies) = (&self.aggregate, &self.surfaces, &self.bodies);
+        Surroundings { aggregate, surfaces, bodies }.media(point)
     }
 
     /// The scattering of a material at a point, and the unit shading normal on the side that the ray came from.
@@ -68,7 +157,11 @@ impl World {
     /// The origin of a ray that leaves a surface point in this direction: offset from the surface, to the side of the
     /// direction, by more than rounding.
     pub fn leave(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
-        let offset = SELF_HIT_OFFSET * (point.position.abs().max_element() + self.radius);
-        point.position + point.n_geom * offset.copysign(direction.dot(point.n_geom))
+        point.position + point.n_geom * self.rounding(point.position).copysign(direction.dot(point.n_geom))
+    }
+
+    /// How near to each other two surfaces at this position are that rounding does not tell apart, scene units.
+    fn rounding(&self, position: DVec3) -> f64 {
+        SELF_HIT_OFFSET * (position.abs().max_element() + self.radius)
     }
 }

@@ -11,6 +11,8 @@ pub enum Surface {
         object: u32,
         /// Index of the material in the scene.
         material: u32,
+        /// The rank of the body that it bounds, if it is of glass.
+        body: Option<u32>,
         /// Edges across which the surface continues in another patch.
         shared: SharedEdges,
     },

@@ -69,7 +69,7 @@ mod tests {
     const TOLERANCE: f64 = 1e-13;
 
     fn object(shape: Shape) -> Object {
-        Object { name: String::new(), material: String::new(), shape }
+        Object { name: String::new(), material: String::new(), shape, body: None }
     }
 
     fn ray(x: f64, y: f64) -> Ray {

@@ -186,7 +186,7 @@ mod tests {
         Scene {
             textures: vec![Texture { name: "planks".into(), file: "a.png".into(), encoding: Default::default() }],
             materials: vec![Material { name: "floor".into(), model, relief }],
-            objects: vec![Object { name: "ball".into(), material: "floor".into(), shape }],
+            objects: vec![Object { name: "ball".into(), material: "floor".into(), shape, body: None }],
             ..Scene::default()
         }
     }

@@ -208,7 +208,7 @@ mod tests {
         let bezier = Bezier { transform, patches: Arc::new(vec![net(0.0), net(3.0)]), file: Some("a.bpt".into()) };
         let shape = Shape::Bezier(bezier);
         Scene {
-            objects: vec![Object { name: "sheet".into(), material: String::new(), shape }],
+            objects: vec![Object { name: "sheet".into(), material: String::new(), shape, body: None }],
             lights: vec![],
             ..Scene::default()
         }

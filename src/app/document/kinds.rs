@@ -67,7 +67,9 @@ pub(crate) fn model_like(model: &MaterialModel, kind: &str) -> MaterialModel {
         "phong" => MaterialModel::Phong { albedo: dimmed(albedo), specular: gloss, exponent: 50.0 },
         "polished" => MaterialModel::Polished { albedo: dimmed(albedo), reflectance: gloss },
         "mirror" => MaterialModel::Mirror { reflectance },
-        "glass" => MaterialModel::Glass { ior: 1.5, tint: Color::Constant(Rgb::ONE), absorption: Rgb::ZERO },
+        "glass" => {
+            MaterialModel::Glass { ior: 1.5, tint: Color::Constant(Rgb::ONE), absorption: Rgb::ZERO, priority: 0 }
+        }
         _ => MaterialModel::Diffuse { albedo },
     }
 }

@@ -49,7 +49,7 @@ pub(crate) fn models() -> [(&'static str, MaterialModel); 5] {
 /// A new object of the scene's first material, under a free name made from `name`.
 pub(crate) fn object(scene: &Scene, name: &str, shape: Shape) -> Object {
     let material = scene.materials.first().map_or(String::new(), |material| material.name.clone());
-    Object { name: object_name(scene, name), material, shape }
+    Object { name: object_name(scene, name), material, shape, body: None }
 }
 
 /// A new light under a free name made from `kind`.
@@ -118,7 +118,7 @@ pub(crate) fn empty_scene() -> Scene {
         emitter: Emitter::Point { position: DVec3::new(0.5, 1.8, 0.5), intensity: Rgb::splat(3.0) },
     }];
     let ground = Shape::Plane { point: DVec3::new(0.0, -0.6, 0.0), normal: DVec3::Y, u_axis: None };
-    let named = |name: &str, shape| Object { name: name.to_owned(), material: "white".to_owned(), shape };
+    let named = |name: &str, shape| Object { name: name.to_owned(), material: "white".to_owned(), shape, body: None };
     scene.objects = vec![named("ground", ground), named("sheet", Shape::Bezier(sheet(DVec3::ZERO, 0.7)))];
     scene
 }

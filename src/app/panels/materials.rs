@@ -60,7 +60,7 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
             surface_color_ui(ui, "Reflectance", reflectance, scene);
         }
         MaterialModel::Mirror { reflectance } => surface_color_ui(ui, "Reflectance", reflectance, scene),
-        MaterialModel::Glass { ior, tint, absorption } => {
+        MaterialModel::Glass { ior, tint, absorption, priority } => {
             let spec =
                 Number::positive(0.002).within(1.0..=4.0).tip("Index of refraction: 1.33 for water, 1.5 for glass");
             number_row(ui, "IOR", ior, &spec);
@@ -68,8 +68,18 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
             ui.label("Absorption").on_hover_text("Absorption coefficient, per scene unit inside the glass");
             ui.horizontal(|ui| color(ui, "Absorption", absorption, &Number::positive(0.01)));
             ui.end_row();
+            priority_ui(ui, priority);
         }
     }
+}
+
+fn priority_ui(ui: &mut Ui, priority: &mut i32) {
+    let mut value = f64::from(*priority);
+    let spec = Number::any(0.05)
+        .within(f64::from(i32::MIN)..=f64::from(i32::MAX))
+        .tip("Where bodies of glass overlap, the one with the highest priority counts; among equals the smaller one");
+    number_row(ui, "Priority", &mut value, &spec);
+    *priority = value.round() as i32;
 }
 
 /// A colour, or a texture if the scene has textures.

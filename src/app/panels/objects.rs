@@ -5,7 +5,7 @@ use super::fields::{Number, choice_row, length_speed, number_row, rows, text_row
 use super::materials::{Naming, material_ui};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, kinds};
-use crate::scene::{Object, Shape, Transform};
+use crate::scene::{MaterialModel, Object, Scene, Shape, Transform};
 use egui::{CollapsingHeader, Ui};
 use glam::DVec3;
 
@@ -23,6 +23,7 @@ pub(super) fn object_ui(
     rows(ui, "object", |ui| {
         text_row(ui, "Name", &mut edited.name, ("object", index, &object.name));
         choice_row(ui, "Material", &mut edited.material, materials);
+        body_ui(ui, document.scene(), index, &mut edited);
         shape_ui(ui, &mut edited.shape, length_speed(&document.scene().camera));
     });
     if edited != *object {
@@ -42,6 +43,18 @@ pub(super) fn object_ui(
             },
         );
     }
+}
+
+/// The body of an object of glass; an empty name stands for the body of all objects with the material.
+fn body_ui(ui: &mut Ui, scene: &Scene, index: usize, object: &mut Object) {
+    let material = scene.materials.iter().find(|material| material.name == object.material);
+    if !material.is_some_and(|material| matches!(material.model, MaterialModel::Glass { .. })) {
+        return;
+    }
+    let before = object.body.clone().unwrap_or_default();
+    let mut name = before.clone();
+    text_row(ui, "Body", &mut name, ("body", index, &before));
+    object.body = (!name.is_empty()).then_some(name);
 }
 
 fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {

@@ -1,10 +1,10 @@
-//! The rendered and the skipped components, with reasons.
+//! The rendered and the skipped components with reasons, and warnings about the scene.
 
 use crate::app::theme;
 use crate::engine::PlanSummary;
 use egui::Ui;
 
-/// The plan, one line per note.
+/// The plan, one line per note, and the warnings.
 pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
     let palette = theme::palette(ui.visuals().dark_mode);
     for note in &plan.notes {
@@ -14,6 +14,13 @@ pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
             ui.label(note.item.to_string());
             let how = if note.rendered { "" } else { "skipped: " };
             ui.weak(format!("{how}{}", note.reason));
+        });
+    }
+    for warning in &plan.warnings {
+        ui.horizontal_wrapped(|ui| {
+            ui.colored_label(palette.warning, "⚠");
+            ui.label(format!("{} {}", warning.subject, warning.fault));
+            ui.weak(format!("To mend it: {}.", warning.remedy));
         });
     }
 }

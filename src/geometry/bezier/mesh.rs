@@ -1,6 +1,6 @@
 //! Tessellation: patches as a mesh of quads.
 
-use super::{ControlNet, Patch};
+use super::Patch;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
@@ -27,12 +27,12 @@ const ROUNDING: f64 = 1e-14;
 
 impl QuadMesh {
     /// The mesh of these patches, with `steps` quads (at least 1) along each side of each patch.
-    pub fn new(nets: &[ControlNet], steps: usize) -> Self {
+    pub fn new(patches: &[Patch], steps: usize) -> Self {
         let steps = steps.max(1);
         let mut mesh = Self::default();
-        let mut weld = Weld { distance: weld_distance(nets), cells: HashMap::new() };
-        for net in nets {
-            mesh.add_patch(&Patch::new(*net), steps, &mut weld);
+        let mut weld = Weld { distance: weld_distance(patches), cells: HashMap::new() };
+        for patch in patches {
+            mesh.add_patch(patch, steps, &mut weld);
         }
         for normal in &mut mesh.normals {
             *normal = normal.try_normalize().unwrap_or(DVec3::Z);
@@ -54,7 +54,10 @@ impl QuadMesh {
         }
         for i in 0..steps {
             for j in 0..steps {
-                let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                let mut corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                if patch.is_mirrored() {
+                    corners.reverse();
+                }
                 self.faces.extend(face(corners.map(|(i, j)| vertices[i * (steps + 1) + j])));
             }
         }
@@ -95,11 +98,11 @@ fn face(corners: [usize; 4]) -> Option<Vec<usize>> {
 }
 
 /// The distance below which vertices are welded, in scene units.
-fn weld_distance(nets: &[ControlNet]) -> f64 {
-    let sizes = nets.iter().map(|net| net.bounds().diagonal()).filter(|size| *size > 0.0);
+fn weld_distance(patches: &[Patch]) -> f64 {
+    let nets = || patches.iter().map(Patch::net);
+    let sizes = nets().map(|net| net.bounds().diagonal()).filter(|size| *size > 0.0);
     let smallest = sizes.reduce(f64::min).unwrap_or(0.0);
-    let largest =
-        nets.iter().flat_map(|net| net.points.as_flattened()).fold(0.0, |most, p| p.abs().max_element().max(most));
+    let largest = nets().flat_map(|net| net.points.as_flattened()).fold(0.0, |most, p| p.abs().max_element().max(most));
     (WELD_DISTANCE * smallest).max(ROUNDING * largest)
 }
 
@@ -132,6 +135,11 @@ impl Weld {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::bezier::ControlNet;
+
+    fn mesh_of(nets: &[ControlNet], steps: usize) -> QuadMesh {
+        QuadMesh::new(&nets.iter().map(|net| Patch::new(*net)).collect::<Vec<_>>(), steps)
+    }
 
     /// A cube whose six faces are patches with corners in any order.
     fn cube() -> Vec<ControlNet> {
@@ -151,7 +159,7 @@ mod tests {
 
     #[test]
     fn a_closed_body_is_welded_shut() {
-        let mesh = QuadMesh::new(&cube(), 4);
+        let mesh = mesh_of(&cube(), 4);
         assert_eq!(mesh.faces.len(), 6 * 16);
         // Euler: a closed quad mesh of genus 0 has two more vertices than faces.
         assert_eq!((mesh.positions.len(), mesh.parameters.len(), mesh.normals.len()), (98, 98, 98));
@@ -161,7 +169,7 @@ mod tests {
     #[test]
     fn a_small_body_beside_a_large_one_is_welded_shut_too() {
         let place = |size: f64, at: f64| cube().into_iter().map(move |net| net.map(|p| size * p + DVec3::splat(at)));
-        let mesh = QuadMesh::new(&place(1e6, -2e6).chain(place(1e-3, 0.0)).collect::<Vec<_>>(), 4);
+        let mesh = mesh_of(&place(1e6, -2e6).chain(place(1e-3, 0.0)).collect::<Vec<_>>(), 4);
         assert_eq!(mesh.positions.len(), 2 * 98);
         assert_closed(&mesh);
     }
@@ -182,15 +190,27 @@ mod tests {
     fn collapsed_edges_give_triangles_and_points_give_no_face() {
         let mut net = cube()[0];
         net.points[0] = [net.points[0][0]; 4];
-        let mesh = QuadMesh::new(&[net], 3);
+        let mesh = mesh_of(&[net], 3);
         assert_eq!(mesh.faces.iter().filter(|f| f.len() == 3).count(), 3);
         assert!(mesh.normals.iter().all(|n| n.is_normalized()));
-        assert!(QuadMesh::new(&[net.map(|_| DVec3::ONE)], 3).faces.is_empty());
+        assert!(mesh_of(&[net.map(|_| DVec3::ONE)], 3).faces.is_empty());
+    }
+
+    #[test]
+    fn mirrored_patches_face_their_outside() {
+        let mirrored = |net: ControlNet| Patch::new(net.map(|p| p * DVec3::new(-1.0, 1.0, 1.0))).mirrored(true);
+        let mesh = QuadMesh::new(&cube().into_iter().map(mirrored).collect::<Vec<_>>(), 4);
+        assert_closed(&mesh);
+        for face in &mesh.faces {
+            let corners = [0, 1, 2].map(|k| mesh.positions[face[k]]);
+            let outward = (corners[1] - corners[0]).cross(corners[2] - corners[1]);
+            assert!(outward.dot(corners[0]) > 0.0 && mesh.normals[face[0]].dot(corners[0]) > 0.0);
+        }
     }
 
     #[test]
     fn objs_count_from_one() {
-        let text = QuadMesh::new(&cube()[..1], 1).to_obj("face");
+        let text = mesh_of(&cube()[..1], 1).to_obj("face");
         let faces: Vec<&str> = text.lines().filter(|line| line.starts_with('f')).collect();
         assert_eq!(faces, ["f 1/1/1 3/3/3 4/4/4 2/2/2"]);
         assert_eq!(text.lines().count(), 1 + 4 + 4 + 4 + 1);

@@ -34,6 +34,8 @@ use std::sync::OnceLock;
 #[derive(Clone, Debug)]
 pub struct Patch {
     net: ControlNet,
+    /// Whether the normal is against `dS/du x dS/dv`.
+    is_mirrored: bool,
     unit_map: UnitMap,
     unit_net: ControlNet,
     prepared: OnceLock<PreparedPatch>,
@@ -63,7 +65,18 @@ impl Patch {
         let bounds = if net.is_finite() { net.bounds() } else { Aabb::EMPTY };
         let unit_map = UnitMap::new(bounds.center(), bounds.diagonal());
         let unit_net = net.map(|p| unit_map.point(p));
-        Self { net, unit_map, unit_net, prepared: OnceLock::new() }
+        Self { net, is_mirrored: false, unit_map, unit_net, prepared: OnceLock::new() }
+    }
+
+    /// The patch with its normal against `dS/du x dS/dv` where `is_mirrored`: a transform that mirrors a surface keeps its outside.
+    #[must_use]
+    pub fn mirrored(self, is_mirrored: bool) -> Self {
+        Self { is_mirrored, ..self }
+    }
+
+    /// Whether the normal is against `dS/du x dS/dv`.
+    pub fn is_mirrored(&self) -> bool {
+        self.is_mirrored
     }
 
     /// The patch as intersection reads it; the first call prepares it.
@@ -127,10 +140,11 @@ impl Patch {
         )
     }
 
-    /// The geometric unit normal, along `dS/du x dS/dv`; the limit of the normal on collapsed edges, equal rows and cusps.
-    /// Never NaN.
+    /// The geometric unit normal, along `dS/du x dS/dv` (against it for a mirrored patch); the limit of the normal on collapsed edges,
+    /// equal rows and cusps. Never NaN.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
-        unit_normal(&self.unit_net, u, v)
+        let normal = unit_normal(&self.unit_net, u, v);
+        if self.is_mirrored { -normal } else { normal }
     }
 
     /// Bytes of memory of the patch with everything that it owns so far.

@@ -82,6 +82,16 @@ impl Field for u32 {
     }
 }
 
+impl Field for i32 {
+    const EXPECTED: &'static str = "a whole number";
+
+    fn read(value: &DeValue<'_>, path: &str, notes: &mut Notes) -> Option<Self> {
+        let DeValue::Integer(n) = value else { return mismatch(value, path, Self::EXPECTED, notes) };
+        let read = Self::from_str_radix(n.as_str(), n.radix()).ok();
+        read.or_else(|| mismatch(value, path, "a whole number from -2147483648 to 2147483647", notes))
+    }
+}
+
 impl Field for String {
     const EXPECTED: &'static str = "a string";
 

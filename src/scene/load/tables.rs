@@ -152,6 +152,7 @@ fn material_model(kind: &str, t: &mut Table<'_>) -> Option<MaterialModel> {
             ior: t.required("ior", 1.5),
             tint: t.optional("tint", WHITE),
             absorption: t.optional("absorption", Rgb::ZERO),
+            priority: t.optional("priority", 0),
         },
         _ => return None,
     })
@@ -227,7 +228,8 @@ fn object(t: &mut Table<'_>) -> Object {
     let name = name(t);
     let shape = by_type(t, &["quad", "sphere", "plane", "bezier"], shape);
     let material = t.required("material", String::new());
-    Object { name, material, shape: shape.unwrap_or(Shape::Sphere { center: DVec3::ZERO, radius: 1.0 }) }
+    let shape = shape.unwrap_or(Shape::Sphere { center: DVec3::ZERO, radius: 1.0 });
+    Object { name, material, shape, body: t.maybe("body") }
 }
 
 fn shape(kind: &str, t: &mut Table<'_>) -> Option<Shape> {

@@ -67,8 +67,11 @@ fn model(model: &MaterialModel, t: &mut Text) {
             typed(t, "polished", &[("albedo", albedo), ("reflectance", reflectance)]);
         }
         MaterialModel::Mirror { reflectance } => typed(t, "mirror", &[("reflectance", reflectance)]),
-        MaterialModel::Glass { ior, tint, absorption } => {
+        MaterialModel::Glass { ior, tint, absorption, priority } => {
             typed(t, "glass", &[("ior", ior), ("tint", tint), ("absorption", absorption)]);
+            if *priority != 0 {
+                t.key("priority", priority);
+            }
         }
     }
 }
@@ -118,6 +121,9 @@ fn object(object: &Object, t: &mut Text) {
             typed(t, "bezier", &[material]);
             bezier(b, t);
         }
+    }
+    if let Some(body) = &object.body {
+        t.key("body", body);
     }
 }
 

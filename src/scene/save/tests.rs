@@ -63,11 +63,8 @@ fn model() -> impl Strategy<Value = MaterialModel> {
         }),
         (color(), color()).prop_map(|(albedo, reflectance)| MaterialModel::Polished { albedo, reflectance }),
         color().prop_map(|reflectance| MaterialModel::Mirror { reflectance }),
-        (0.01..100.0, color(), strength()).prop_map(|(ior, tint, absorption)| MaterialModel::Glass {
-            ior,
-            tint,
-            absorption
-        }),
+        (0.01..100.0, color(), strength(), any::<i32>())
+            .prop_map(|(ior, tint, absorption, priority)| MaterialModel::Glass { ior, tint, absorption, priority }),
     ]
 }
 
@@ -143,7 +140,7 @@ prop_compose! {
         encoding in select(vec![Encoding::Srgb, Encoding::Linear]),
         materials in vec((name(), model(), relief()), 1..4),
         lights in vec((name(), emitter()), 0..3),
-        objects in vec((name(), shape()), 0..4),
+        objects in vec((name(), shape(), proptest::option::of(name())), 0..4),
     ) -> Scene {
         let position = DVec3::from_array(position);
         let numbered = |k: usize, name: String| format!("{name}{k}");
@@ -157,7 +154,7 @@ prop_compose! {
             render,
             textures: vec![texture],
             lights: lights.into_iter().enumerate().map(|(k, (name, emitter))| Light { name: numbered(k, name), emitter }).collect(),
-            objects: objects.into_iter().enumerate().map(|(k, (name, shape))| Object { name: numbered(k, name), material: material.clone(), shape }).collect(),
+            objects: objects.into_iter().enumerate().map(|(k, (name, shape, body))| Object { name: numbered(k, name), material: material.clone(), shape, body }).collect(),
             materials,
         }
     }

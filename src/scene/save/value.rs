@@ -61,6 +61,12 @@ impl Value for f64 {
     }
 }
 
+impl Value for i32 {
+    fn toml(&self) -> String {
+        self.to_string()
+    }
+}
+
 impl Value for u32 {
     fn toml(&self) -> String {
         self.to_string()

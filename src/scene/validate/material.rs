@@ -19,7 +19,7 @@ pub(super) fn material(material: &Material, names: &Names<'_>, checks: &mut Chec
             reflecting(("albedo", albedo), ("reflectance", reflectance), names, checks);
         }
         MaterialModel::Mirror { reflectance } => color("reflectance", reflectance, names, checks),
-        MaterialModel::Glass { ior, tint, absorption } => {
+        MaterialModel::Glass { ior, tint, absorption, priority: _ } => {
             checks.within("ior", *ior, 0.01, 100.0);
             color("tint", tint, names, checks);
             checks.radiance("absorption", *absorption);

@@ -3,10 +3,12 @@
 //! | file | holds |
 //! |---|---|
 //! | `material` | materials |
+//! | `body` | bodies of glass |
 //! | `shape` | lights and objects |
 //! | `checks` | checks of single values, which collect the problems |
 //! | `names` | the names that a scene can refer to |
 
+mod body;
 mod checks;
 mod material;
 mod names;
@@ -30,6 +32,7 @@ pub fn validate(scene: &Scene) -> Vec<Problem> {
     each("material", &scene.materials, |m| &m.name, &mut checks, |m, c| material::material(m, &names, c));
     each("light", &scene.lights, |l| &l.name, &mut checks, shape::light);
     each("object", &scene.objects, |o| &o.name, &mut checks, |o, c| shape::object(o, &names, c));
+    body::bodies(scene, &mut checks);
     problems
 }
 

@@ -18,7 +18,7 @@ fn scene() -> Scene {
             name: "lamp".to_owned(),
             emitter: Emitter::Point { position: DVec3::ZERO, intensity: Rgb::ONE },
         }],
-        objects: vec![Object { name: "ball".to_owned(), material: "white".to_owned(), shape }],
+        objects: vec![Object { name: "ball".to_owned(), material: "white".to_owned(), shape, body: None }],
         ..Scene::default()
     }
 }
@@ -59,6 +59,26 @@ fn edits_that_break_a_scene_are_found() {
         shape(Shape::Plane { point: DVec3::ZERO, normal: DVec3::Y, u_axis: Some(DVec3::Y) }),
         "object[0].u_axis"
     );
+}
+
+#[test]
+fn materials_of_one_body_have_one_medium() {
+    let glass =
+        |ior: f64| MaterialModel::Glass { ior, tint: Color::Constant(Rgb::ONE), absorption: Rgb::ZERO, priority: 0 };
+    let two = |iors: [f64; 2]| {
+        let mut scene = scene();
+        scene.objects.push(Object { name: "top".to_owned(), material: "black".to_owned(), ..scene.objects[0].clone() });
+        for (k, ior) in iors.into_iter().enumerate() {
+            scene.materials[k].model = glass(ior);
+            scene.objects[k].body = Some("water".to_owned());
+        }
+        scene
+    };
+    assert_eq!(validate(&two([1.33, 1.33])), []);
+    let problems = validate(&two([1.33, 1.5]));
+    assert_eq!(problems.len(), 1, "{problems:?}");
+    assert_eq!(problems[0].path, "object[1].body");
+    assert!(problems[0].message.contains("\"white\"") && problems[0].message.contains("\"black\""), "{problems:?}");
 }
 
 #[test]

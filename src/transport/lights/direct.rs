@@ -6,7 +6,7 @@ use crate::geometry::Sphere;
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
 use crate::transport::counters::Counters;
 use crate::transport::points::{GlossyMis, MisVertex, Vertex, ViewingLobe, bsdf};
-use crate::world::{Light, World};
+use crate::world::{Light, Media, World};
 use glam::DVec3;
 
 /// The input of next event estimation.
@@ -37,11 +37,13 @@ const NEAREST: f64 = 1e-4;
 const SHADOW_RAY_END: f64 = 1.0 - 1e-9;
 
 impl DirectLight<'_> {
-    /// Radiance from a vertex towards `wo` of light that comes straight from the lights, times the MIS weight of camera paths.
+    /// Radiance from a vertex in these media towards `wo` of light that comes straight from the lights, times the MIS weight of camera
+    /// paths.
     #[inline]
     pub(in crate::transport) fn radiance(
         &self,
         vertex: &Vertex,
+        media: &Media,
         viewing_lobe: Option<ViewingLobe>,
         sampler: &mut Sampler,
         counters: &mut Counters,
@@ -50,7 +52,7 @@ impl DirectLight<'_> {
         // A number is drawn only where lights are drawn.
         let u = if self.light_sampler.draws() { sampler.next_1d() } else { 0.0 };
         self.light_sampler.sample(vertex, u, |light, weight| {
-            radiance += weight * self.of_light(light, vertex, viewing_lobe, sampler, counters);
+            radiance += weight * self.of_light(light, vertex, media, viewing_lobe, sampler, counters);
         });
         radiance
     }
@@ -59,6 +61,7 @@ impl DirectLight<'_> {
         &self,
         light: usize,
         vertex: &Vertex,
+        media: &Media,
         viewing_lobe: Option<ViewingLobe>,
         sampler: &mut Sampler,
         counters: &mut Counters,
@@ -83,7 +86,10 @@ impl DirectLight<'_> {
         counters.shadow_rays += 1;
         let shadow_ray =
             Ray { t_max: SHADOW_RAY_END, ..Ray::between(self.world.leave(&vertex.point, sample.wi), sample.position) };
-        if self.world.aggregate.occluded(&shadow_ray) { Rgb::ZERO } else { radiance }
+        if self.world.aggregate.occluded(&shadow_ray) {
+            return Rgb::ZERO;
+        }
+        radiance * self.world.transmittance(media, sample.position.distance(vertex.point.position))
     }
 
     /// The MIS weight of camera paths, 0 to 1, for light that a vertex scatters from a point of a light to the lobe that shows the vertex;

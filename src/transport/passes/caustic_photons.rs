@@ -11,8 +11,8 @@ use crate::transport::photons::Photon;
 use crate::transport::photons::path_blocks::{concat, path_blocks};
 use crate::transport::plan::CausticPlan;
 use crate::transport::points::bsdf::{self, MAX_SHADING_FACTOR};
-use crate::transport::points::{Media, SpecularEvent, Vertex, roulette};
-use crate::world::{Surface, World};
+use crate::transport::points::{SpecularEvent, Vertex, roulette};
+use crate::world::{Media, Surface, World};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -106,7 +106,8 @@ impl<'a> CausticTracer<'a> {
         let flux = flux / path_count as f32;
         let weak = WEAK_BRANCH * flux.max_element();
         let ray = emission::ray_from_light(self.world, origin, direction);
-        self.branches.push(Branch { ray, flux, media: Media::default(), bounces: 0 });
+        let media = self.world.media_at_light(light, ray.at(ray.t_min));
+        self.branches.push(Branch { ray, flux, media, bounces: 0 });
         while let Some(branch) = self.branches.pop() {
             self.follow(branch, weak, &mut sampler);
         }
@@ -115,12 +116,12 @@ impl<'a> CausticTracer<'a> {
     /// Follows a branch to the next surface: leaves a photon where the surface scatters, branches off where it mirrors or refracts.
     fn follow(&mut self, mut branch: Branch, weak: f32, sampler: &mut Sampler) {
         self.found.counters.rays += 1;
-        let Some(hit) = self.world.aggregate.closest_hit(&branch.ray) else { return };
+        let Some(hit) = self.world.closest_hit(&branch.ray) else { return };
         let Surface::Object { object, material, .. } = self.world.surfaces[hit.primitive as usize] else { return };
         if branch.bounces == 0 && !self.world.materials[material as usize].is_specular() {
             return;
         }
-        branch.flux *= branch.media.transmittance(self.world, hit.t);
+        branch.flux *= self.world.transmittance(&branch.media, hit.t);
         let ids = [object, material];
         let vertex = Vertex::at_hit(self.world, &branch.ray, hit, ids, &mut self.found.counters);
         if vertex.scatters() && branch.bounces > 0 && branch.bounces < self.world.max_bounces {
@@ -140,8 +141,8 @@ impl<'a> CausticTracer<'a> {
                 self.branches.push(Branch {
                     ray: vertex.ray(self.world, next.direction),
                     flux: flux / survival,
+                    bounces: next.bounces_after(branch.bounces),
                     media: next.media,
-                    bounces: branch.bounces + 1,
                 });
             }
         }
@@ -157,12 +158,12 @@ impl<'a> CausticTracer<'a> {
             self.found.photons.push(Photon::arrived(self.world, vertex, branch.flux, branch.bounces));
             self.found.counters.photons_stored += 1;
         }
-        self.splat(branch.flux, vertex);
+        self.splat(branch, vertex);
     }
 
     /// Adds a photon to the pixel that sees it: the flux `phi` adds `phi f |cos| / (d^2 solid angle of the pixel)` to the pixel's mean
     /// radiance. Adds nothing where the pixel gathers directly seen caustics.
-    fn splat(&mut self, flux: Rgb, vertex: &Vertex) {
+    fn splat(&mut self, branch: &Branch, vertex: &Vertex) {
         let Vertex { point, scattering, n_side, n_shade, wo: wi, .. } = vertex;
         let PassInput { plan, iteration, .. } = *self.input;
         let Some(seen) = plan.camera.project(point.position) else { return };
@@ -178,7 +179,8 @@ impl<'a> CausticTracer<'a> {
         let reflected = bsdf::eval(scattering, *n_shade, wo, *wi);
         let shading = (cos_shade / cos_photon).min(MAX_SHADING_FACTOR);
         let geometry = cos_camera * seen.pixels_per_steradian / (seen.distance * seen.distance);
-        let radiance = flux * reflected * (shading * geometry) as f32;
+        let seen_through = self.world.transmittance(&branch.media, seen.distance);
+        let radiance = branch.flux * seen_through * reflected * (shading * geometry) as f32;
         if radiance == Rgb::ZERO || self.is_hidden(vertex, wo) {
             return;
         }

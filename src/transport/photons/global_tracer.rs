@@ -4,8 +4,8 @@ use super::photon::Photon;
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
 use crate::transport::counters::{Counted, Counters};
 use crate::transport::lights::emission::{self, Emission};
-use crate::transport::points::{GlossyMis, Media, SpecularEvent, Vertex, bsdf};
-use crate::world::{Lobe, Surface, World};
+use crate::transport::points::{GlossyMis, SpecularEvent, Vertex, bsdf};
+use crate::world::{Lobe, Media, Surface, World};
 use glam::{DVec2, DVec3};
 
 /// Distance of a point in front of a surface, in radii of the world.
@@ -90,7 +90,7 @@ impl<'a> GlobalPhotonTracer<'a> {
             origin,
             ray,
             flux: flux / path_count as f32,
-            media: Media::default(),
+            media: self.world.media_at_light(light, ray.at(ray.t_min)),
             bounces: 0,
             was_scattered: false,
             last_was_specular: false,
@@ -106,9 +106,9 @@ impl<'a> GlobalPhotonTracer<'a> {
     fn step(&mut self, path: &mut PhotonPath, sampler: &mut Sampler) -> Option<()> {
         let counters = &mut self.stored.counters;
         counters.rays += 1;
-        let hit = self.world.aggregate.closest_hit(&path.ray)?;
+        let hit = self.world.closest_hit(&path.ray)?;
         let Surface::Object { object, material, .. } = self.world.surfaces[hit.primitive as usize] else { return None };
-        path.flux *= path.media.transmittance(self.world, hit.t);
+        path.flux *= self.world.transmittance(&path.media, hit.t);
         let vertex = Vertex::at_hit(self.world, &path.ray, hit, [object, material], counters);
         if path.bounces < self.world.max_bounces {
             self.store(path, &vertex);
@@ -116,9 +116,9 @@ impl<'a> GlobalPhotonTracer<'a> {
         if path.bounces + 1 >= self.world.max_bounces {
             return None;
         }
+        let bounces = path.bounces;
         let direction = scatter(self.world, path, &vertex, sampler)?;
-        path.mis_density = self.mis_density(path, &vertex, direction);
-        path.bounces += 1;
+        path.mis_density = self.mis_density(path, bounces, &vertex, direction);
         path.ray = vertex.ray(self.world, direction);
         path.flux.is_finite().then_some(())
     }
@@ -150,9 +150,9 @@ impl<'a> GlobalPhotonTracer<'a> {
         Some(())
     }
 
-    /// [`PhotonPath::mis_density`] of a path that leaves a vertex in this direction.
-    fn mis_density(&self, path: &PhotonPath, vertex: &Vertex, direction: DVec3) -> Option<f64> {
-        match (path.bounces, path.last_was_specular) {
+    /// [`PhotonPath::mis_density`] of a path that leaves a vertex, after so many bounces before it, in this direction.
+    fn mis_density(&self, path: &PhotonPath, bounces: u32, vertex: &Vertex, direction: DVec3) -> Option<f64> {
+        match (bounces, path.last_was_specular) {
             (0, false) if self.glossy_mis.is_some_and(GlossyMis::uses_photons) => {
                 let light = &self.world.lights[path.light];
                 let scattered =
@@ -179,6 +179,7 @@ fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut 
     if choice < diffuse {
         path.flux *= scattering.albedo / diffuse as f32;
         path.was_scattered = true;
+        path.bounces += 1;
         let direction = OrthonormalBasis::from_normal(n_shade).world_from_local(warp::cosine_hemisphere(u));
         let factor = bsdf::shading_factor(wi, direction, n_side, n_shade);
         path.flux *= factor as f32;
@@ -195,6 +196,7 @@ fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut 
             path.flux *= weight / probability as f32;
             path.flux *= bsdf::shading_factor(wi, direction, n_side, n_shade) as f32;
             path.was_scattered = true;
+            path.bounces += 1;
             Some(direction)
         }
         Lobe::Mirror { reflectance } => {
@@ -218,6 +220,7 @@ fn follow_specular(
     let next = SpecularEvent::at(world, vertex, &path.media)?.choose(choice);
     path.last_was_specular = true;
     path.flux *= next.tint / probability as f32;
+    path.bounces = next.bounces_after(path.bounces);
     path.media = next.media;
     Some(next.direction)
 }

@@ -52,9 +52,26 @@ const LEAST_COS: f64 = 1e-6;
 /// the surface.
 #[inline]
 pub(in crate::transport) fn reflect_above(wo: DVec3, n_shade: DVec3, n_side: DVec3) -> DVec3 {
-    let wi = reflect(wo, n_shade);
-    let depth = wi.dot(n_side);
-    if depth > 0.0 { wi } else { (wi - (2.0 * depth - LEAST_COS) * n_side).normalize() }
+    bent_to(n_side, reflect(wo, n_shade))
+}
+
+/// The refracted direction for a shading normal, bent behind the surface where the shading normal would send it before it.
+#[inline]
+pub(in crate::transport) fn refract_below(
+    wo: DVec3,
+    n_shade: DVec3,
+    n_side: DVec3,
+    eta: f64,
+    cos_transmitted: f64,
+) -> DVec3 {
+    bent_to(-n_side, refract(wo, n_shade, eta, cos_transmitted))
+}
+
+/// A unit direction, mirrored at the surface where it is not on the side of this geometric normal.
+#[inline]
+fn bent_to(n_side: DVec3, direction: DVec3) -> DVec3 {
+    let height = direction.dot(n_side);
+    if height > 0.0 { direction } else { (direction - (2.0 * height - LEAST_COS) * n_side).normalize() }
 }
 
 /// The diffuse term of the scattering function, `albedo / pi`, per steradian.

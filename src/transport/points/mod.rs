@@ -4,7 +4,6 @@
 //! |---|---|
 //! | `bsdf` | scattering functions: Lambert, Phong, Fresnel |
 //! | `surfaces` | how a primitive's surface scatters light |
-//! | `medium` | the glass around a path |
 //! | `vertex` | a vertex of a light or camera path |
 //! | `specular` | the scattering event at mirrors and glass; Russian roulette |
 //! | `glossy_mis` | MIS weights between camera paths and photons in Phong lobes |
@@ -12,7 +11,6 @@
 
 pub(in crate::transport) mod bsdf;
 pub(in crate::transport) mod glossy_mis;
-mod medium;
 mod specular;
 mod surfaces;
 mod vertex;
@@ -21,7 +19,6 @@ mod visible_point;
 pub use bsdf::{Fresnel, fresnel};
 pub use glossy_mis::GlossyMis;
 pub(in crate::transport) use glossy_mis::{MisVertex, ViewingLobe};
-pub(in crate::transport) use medium::Media;
 pub(in crate::transport) use specular::{SpecularEvent, roulette};
 pub(in crate::transport) use vertex::Vertex;
 pub(in crate::transport) use visible_point::LEAST_COS_OF_NEIGHBOURS;

@@ -1,10 +1,9 @@
 //! The one scattering event at mirrors and smooth dielectric interfaces, for camera paths, photons and caustic photons alike.
 
 use super::bsdf;
-use super::medium::Media;
 use super::vertex::Vertex;
 use crate::math::{Rgb, Sampler};
-use crate::world::{Lobe, World};
+use crate::world::{Lobe, Media, World};
 use glam::DVec3;
 
 /// How a mirror or an interface sends a path on.
@@ -28,6 +27,8 @@ pub(in crate::transport) struct Continuation {
     solid_angle_ratio: f64,
     /// The media that the path is in from here on.
     pub(in crate::transport) media: Media,
+    /// Whether light goes straight on, as if there were no surface.
+    is_straight: bool,
 }
 
 impl SpecularEvent {
@@ -45,18 +46,40 @@ impl SpecularEvent {
 
     #[inline]
     fn at_interface(world: &World, vertex: &Vertex, media: &Media, tint: Rgb) -> Self {
-        let entering = vertex.point.front;
-        let eta = media.eta(world, vertex.material, entering);
+        let (before, behind) = world.across(&vertex.point, media);
+        let ior = |media: &Media| world.body(media).map_or(1.0, |body| body.ior);
+        let eta = ior(&behind) / ior(&before);
+        if eta == 1.0 {
+            // A surface inside of a body that counts on both sides is no surface of it.
+            let tint = if before.body() == behind.body() { Rgb::ONE } else { tint };
+            let reflected = Continuation::mirrored(vertex, &before, Rgb::ONE, 0.0);
+            let on = Continuation {
+                direction: -vertex.wo,
+                tint,
+                fraction: 1.0,
+                solid_angle_ratio: 1.0,
+                media: behind,
+                is_straight: true,
+            };
+            return Self { reflected, refracted: Some(on) };
+        }
         let fresnel = bsdf::fresnel(vertex.wo.dot(vertex.n_shade), eta);
-        let reflected = Continuation::mirrored(vertex, media, Rgb::ONE, fresnel.reflectance);
+        let reflected = Continuation::mirrored(vertex, &before, Rgb::ONE, fresnel.reflectance);
         let refracted = (fresnel.reflectance < 1.0).then(|| Continuation {
-            direction: bsdf::refract(vertex.wo, vertex.n_shade, eta, fresnel.cos_transmitted),
+            direction: bsdf::refract_below(vertex.wo, vertex.n_shade, vertex.n_side, eta, fresnel.cos_transmitted),
             tint,
             fraction: 1.0 - fresnel.reflectance,
             solid_angle_ratio: eta * eta,
-            media: media.crossed(vertex.material, entering),
+            media: behind,
+            is_straight: false,
         });
         Self { reflected, refracted }
+    }
+
+    /// Whether the path goes on in two directions.
+    #[inline]
+    pub(in crate::transport) fn is_divided(&self) -> bool {
+        self.refracted.is_some() && self.reflected.fraction > 0.0
     }
 
     /// One of the directions, each with its fraction as probability, by a number in `[0, 1)`.
@@ -76,10 +99,17 @@ impl Continuation {
         self.tint / self.solid_angle_ratio as f32
     }
 
+    /// The number of scattering events of a path with so many of them before. A surface that light does not see is none, except as
+    /// the first one: it tells light that comes through glass from direct light.
+    #[inline]
+    pub(in crate::transport) fn bounces_after(&self, bounces: u32) -> u32 {
+        bounces + u32::from(!self.is_straight || bounces == 0)
+    }
+
     #[inline]
     fn mirrored(vertex: &Vertex, media: &Media, tint: Rgb, fraction: f64) -> Self {
         let direction = bsdf::reflect_above(vertex.wo, vertex.n_shade, vertex.n_side);
-        Self { direction, tint, fraction, solid_angle_ratio: 1.0, media: media.clone() }
+        Self { direction, tint, fraction, solid_angle_ratio: 1.0, media: media.clone(), is_straight: false }
     }
 }
 
@@ -119,7 +149,7 @@ mod tests {
         let (mut flux, mut radiance) = (Rgb::ONE, Rgb::ONE);
         for (before, behind) in [(1.0, 1.33), (1.33, 1.5), (1.5, 1.33), (1.33, 1.0f64)] {
             let vertex = testing::vertex(&world, &ray);
-            let absorbed = media.transmittance(&world, vertex.point.position.distance(ray.origin));
+            let absorbed = world.transmittance(&media, vertex.point.position.distance(ray.origin));
             let SpecularEvent { reflected, refracted } = SpecularEvent::at(&world, &vertex, &media).expect("glass");
             let refracted = refracted.expect("there is no total reflection at normal incidence");
             let passed = 4.0 * before * behind / (before + behind).powi(2);
@@ -137,29 +167,31 @@ mod tests {
         let expected = interfaces * (-2.0 * water - 2.0 * glass).exp() * Rgb::new(1.0, 1.0, 0.25);
         assert!((flux - expected).length() < 1e-5, "{flux} instead of {expected}");
         assert!((radiance - expected).length() < 1e-5, "back in air, radiance is squeezed no more: {radiance}");
-        assert_eq!(media.transmittance(&world, 5.0), Rgb::ONE, "outside all bodies");
+        assert_eq!(media, Media::default(), "outside all bodies");
     }
 
     #[test]
-    fn bodies_may_overlap_and_be_open() {
-        let world = glass_in_water();
-        let (water, glass) = (4, 5);
-        let air = Media::default();
-        assert!((air.eta(&world, glass, false) - 1.0 / 1.5).abs() < 1e-12, "left without having been entered");
-        let both = air.crossed(water, true).crossed(glass, true);
-        assert!((both.eta(&world, water, false) - 1.5 / 1.33).abs() < 1e-12, "the glass is behind the water's surface");
-        let in_glass_alone = both.crossed(water, false);
-        assert!((in_glass_alone.eta(&world, glass, false) - 1.0 / 1.5).abs() < 1e-12, "the water was left first");
-        let expected = (-0.3f32).exp();
-        assert!((in_glass_alone.transmittance(&world, 1.0).x - expected).abs() < 1e-6, "glass absorbs on");
-        let many = (0..20).fold(air, |media, _| media.crossed(water, true));
-        assert!((many.eta(&world, glass, true) - 1.5 / 1.33).abs() < 1e-12, "deep nesting does no harm");
+    fn light_does_not_see_a_surface_inside_of_a_body_that_counts() {
+        // The pond's surface inside of a ball of glass that sticks out of it.
+        let materials = "[[material]]\nname = \"water\"\ntype = \"glass\"\nior = 1.33\ntint = [0.5, 0.5, 0.5]
+            [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5\n";
+        let balls = [sphere("pond", [0.0; 3], 2.0, "water"), sphere("marble", [0.0, 0.0, 2.0], 1.0, "glass")];
+        let world = testing::world(&[materials, &balls.concat()].concat());
+        let ray = Ray::new(DVec3::new(0.3, 0.0, 2.5), DVec3::new(0.1, 0.0, -1.0).normalize());
+        let in_glass = world.media_around(ray.origin);
+        let event = SpecularEvent::at(&world, &testing::vertex(&world, &ray), &in_glass).expect("water");
+        assert!(!event.is_divided());
+        let on = event.choose(0.0);
+        assert!(on.direction == ray.direction && on.radiance_weight() == Rgb::ONE && on.fraction == 1.0);
+        assert_eq!((on.bounces_after(0), on.bounces_after(3)), (1, 3), "no scattering event, but not direct light");
+        assert_eq!(on.media.body(), in_glass.body());
+        assert_ne!(on.media, in_glass, "the water is around it too from here on");
     }
 
     #[test]
     fn light_that_is_totally_reflected_stays_inside() {
         let world = glass_in_water();
-        let inside = Media::default().crossed(4, true);
+        let inside = world.media_around(DVec3::new(-0.3, 1.9, 0.0));
         // At height 1.9 of 2 in the water the sine is 0.95, beyond that of the critical angle, 1 / 1.33.
         let ray = Ray::new(DVec3::new(-0.3, 1.9, 0.0), DVec3::X);
         let event = SpecularEvent::at(&world, &testing::vertex(&world, &ray), &inside).expect("water");
@@ -167,7 +199,7 @@ mod tests {
         let on = event.choose(0.999);
         let outward = DVec3::new((4.0f64 - 1.9 * 1.9).sqrt(), 1.9, 0.0) / 2.0;
         assert!(on.direction.dot(outward) < 0.0);
-        assert!((on.media.eta(&world, 5, true) - 1.5 / 1.33).abs() < 1e-12, "the water is around the path still");
+        assert_eq!(on.media, inside, "the water is around the path still");
     }
 
     #[test]

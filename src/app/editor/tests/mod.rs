@@ -100,6 +100,7 @@ fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
     let pixels = (0..size * size).map(|k| Rgb::splat((k % 7) as f32 / 7.0)).collect();
     let plan = PlanSummary {
         notes: vec![PlanNote { item: PlanItem::Caustics, rendered: false, reason: "no specular surface".into() }],
+        warnings: Vec::new(),
     };
     let stats = Stats {
         iterations: 3,

@@ -9,9 +9,9 @@ use crate::transport::lights::{DirectLight, direct};
 use crate::transport::photons::photon;
 use crate::transport::plan::Plan;
 use crate::transport::points::{
-    Clearance, Facet, Media, MisVertex, SpecularEvent, Vertex, ViewingLobe, VisiblePoint, bsdf, roulette,
+    Clearance, Facet, MisVertex, SpecularEvent, Vertex, ViewingLobe, VisiblePoint, bsdf, roulette,
 };
-use crate::world::{Lobe, Surface, World};
+use crate::world::{Lobe, Media, Surface, World};
 use arrayvec::ArrayVec;
 use glam::{DVec2, DVec3};
 
@@ -83,7 +83,7 @@ impl<'a> CameraTracer<'a> {
         let first = Branch {
             ray,
             throughput: Rgb::ONE,
-            media: Media::default(),
+            media: self.world.camera_media.clone(),
             bounces: 0,
             splits: 0,
             distance: 0.0,
@@ -105,7 +105,8 @@ impl<'a> CameraTracer<'a> {
         let Some(hit) = hit else {
             return branch.throughput * self.world.background;
         };
-        branch.throughput *= branch.media.transmittance(self.world, hit.t);
+        let hit = self.world.on_opaque(&branch.ray, hit);
+        branch.throughput *= self.world.transmittance(&branch.media, hit.t);
         branch.distance += hit.t;
         let ids = match self.world.surfaces[hit.primitive as usize] {
             Surface::Light(light) => return self.emitted(light as usize, &branch, hit),
@@ -121,7 +122,8 @@ impl<'a> CameraTracer<'a> {
         }
         let mut radiance = Rgb::ZERO;
         if vertex.scatters() && self.plan.finds_direct_light {
-            let direct = self.direct.radiance(&vertex, branch.viewing_lobe, sampler, &mut self.batch.counters);
+            let direct =
+                self.direct.radiance(&vertex, &branch.media, branch.viewing_lobe, sampler, &mut self.batch.counters);
             radiance = branch.throughput * direct;
         }
         // A texture that is black here may not be black elsewhere in the pixel.
@@ -196,20 +198,22 @@ impl<'a> CameraTracer<'a> {
             return self.branch_in_lobe(branch, vertex, sampler);
         }
         let Some(event) = SpecularEvent::at(self.world, vertex, &branch.media) else { return };
-        if event.refracted.is_some() && branch.splits < FOLLOWED_SPLITS {
+        if event.is_divided() && branch.splits < FOLLOWED_SPLITS {
             for next in [Some(event.reflected), event.refracted].into_iter().flatten() {
                 let fraction = next.fraction as f32;
                 let mut split = branch.after(self.world, vertex, next.direction, next.radiance_weight());
                 split.throughput *= fraction;
                 split.splits += 1;
+                split.bounces = next.bounces_after(branch.bounces);
                 split.media = next.media;
                 self.push(split, sampler);
             }
         } else {
             // A number is drawn only where there is a choice.
-            let u = if event.refracted.is_some() { sampler.next_1d() } else { 0.0 };
+            let u = if event.is_divided() { sampler.next_1d() } else { 0.0 };
             let next = event.choose(u);
             let mut single = branch.after(self.world, vertex, next.direction, next.radiance_weight());
+            single.bounces = next.bounces_after(branch.bounces);
             single.media = next.media;
             self.push(single, sampler);
         }

@@ -1,0 +1,116 @@
+use super::crossings::{crossings, point_of, spread};
+use crate::geometry::Primitive;
+use crate::math::{Aabb, Ray, Rgb, warp};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Lines that are drawn through a body to see whether it is closed.
+const TEST_LINES: usize = 128;
+/// Lines that may slip through the seams of a closed body.
+const SLIPPED: usize = 1;
+/// Distance below which surfaces coincide, in diagonals of the body's box: above rounding.
+const NEAR: f64 = 1e-6;
+/// Rays that tell on which side of a closed surface a point is.
+const VOTES: usize = 9;
+
+/// One piece of glass, or of any other clear medium. Its rank is its index in the world.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// The name of the body, or of the material of objects without one.
+    pub name: String,
+    /// Index of refraction, relative to air.
+    pub ior: f64,
+    /// The Beer-Lambert absorption coefficient, per scene unit; `None` where it is zero.
+    pub absorption: Option<Rgb>,
+    /// Indices of the primitives that bound it.
+    pub(in crate::world) primitives: Vec<u32>,
+    /// The box of its surfaces; infinite with a plane.
+    pub(in crate::world) bounds: Aabb,
+    /// Whether it has an inside without gaps.
+    pub(super) is_closed: bool,
+}
+
+impl Body {
+    /// The body without surfaces.
+    pub(in crate::world) fn new(name: String, ior: f64, absorption: Rgb) -> Self {
+        let absorption = (absorption != Rgb::ZERO).then_some(absorption);
+        Self { name, ior, absorption, primitives: Vec::new(), bounds: Aabb::EMPTY, is_closed: false }
+    }
+
+    /// Transmittance over this distance (scene units), by the Beer-Lambert law.
+    #[inline]
+    pub fn transmittance(&self, distance: f64) -> Rgb {
+        self.absorption.map_or(Rgb::ONE, |a| (-a * distance as f32).exp())
+    }
+
+    /// Adds a surface.
+    pub(in crate::world) fn add(&mut self, index: u32, primitive: &Primitive) {
+        self.primitives.push(index);
+        let unbounded = Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+        let bounds = if matches!(primitive, Primitive::Plane(_)) { unbounded } else { primitive.bounds() };
+        self.bounds = self.bounds.union(&bounds);
+    }
+
+    /// The crossings of a ray with the body, in any order: the distance along the ray, and whether it comes from the front.
+    pub(super) fn crossings(&self, ray: &Ray, primitives: &[Primitive]) -> impl Iterator<Item = (f64, bool)> {
+        self.primitives.iter().flat_map(move |&p| crossings(ray, &primitives[p as usize]))
+    }
+
+    /// Whether lines enter the body as often as they leave it. A line may slip through a seam of patches. A half-space is closed.
+    pub(super) fn is_crossed_evenly(&self, primitives: &[Primitive]) -> bool {
+        self.lines_with(primitives, |fronts| fronts.map(|front| if front { 1 } else { -1 }).sum::<i32>() != 0)
+            <= SLIPPED
+    }
+
+    /// Whether the surfaces leave gaps, whichever way their normals point: lines meet them an odd number of times.
+    pub(in crate::world) fn has_gaps(&self, primitives: &[Primitive]) -> bool {
+        self.lines_with(primitives, |fronts| fronts.count() % 2 == 1) > SLIPPED
+    }
+
+    /// The number of test lines through the body whose crossings (from the front or not) are like this; 0 for a half-space.
+    fn lines_with(
+        &self,
+        primitives: &[Primitive],
+        is_counted: impl Fn(&mut dyn Iterator<Item = bool>) -> bool + Sync,
+    ) -> usize {
+        if !self.bounds.min.is_finite() {
+            return 0;
+        }
+        let counted = |k: &usize| {
+            let through = &primitives[self.primitives[k % self.primitives.len()] as usize];
+            point_of(through, spread(*k)).is_some_and(|(point, _)| {
+                let line = Ray { t_min: f64::NEG_INFINITY, ..Ray::new(point, warp::uniform_sphere(spread(k / 2))) };
+                is_counted(&mut self.crossings(&line, primitives).map(|(_, front)| front))
+            })
+        };
+        (0..TEST_LINES).into_par_iter().filter(counted).count()
+    }
+
+    /// The primitives of a body without gaps whose normals point to its inside.
+    pub(in crate::world) fn facing_inward(&self, primitives: &[Primitive]) -> Vec<u32> {
+        let is_inward = |p: &&u32| {
+            let votes = (0..VOTES).filter(|&k| {
+                point_of(&primitives[**p as usize], spread(k)).is_some_and(|(point, normal)| {
+                    // The surface itself is not in front of it, but one that coincides with it is.
+                    let near = NEAR * self.bounds.diagonal();
+                    let ahead = |other: u32| {
+                        let t_min = if other == **p { near } else { -near };
+                        crossings(&Ray { t_min, ..Ray::new(point, normal) }, &primitives[other as usize]).count()
+                    };
+                    self.primitives.iter().map(|&other| ahead(other)).sum::<usize>() % 2 == 1
+                })
+            });
+            2 * votes.count() > VOTES
+        };
+        self.primitives.iter().filter(is_inward).copied().collect()
+    }
+
+    /// Whether a closed surface contains the point; almost never for an open one.
+    pub(in crate::world) fn contains(&self, point: DVec3, primitives: &[Primitive]) -> bool {
+        let is_inside = |k: usize| {
+            let ray = Ray::new(point, warp::uniform_sphere(spread(k)));
+            self.crossings(&ray, primitives).count() % 2 == 1
+        };
+        self.bounds.distance(point) == 0.0 && (0..VOTES).all(is_inside)
+    }
+}
