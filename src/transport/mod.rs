@@ -41,7 +41,7 @@ mod testing;
 
 pub use counters::{Counted, Counters};
 pub use density::{Bandwidth, BandwidthDifference, FilmStatistics, PixelSamples};
-pub use lights::{LightSampler, ProjectionMap};
+pub use lights::{LightSampler, PhotonEmission, ProjectionMap};
 pub use pass::{Cancel, Rows};
 pub use passes::{
     Band, CameraBatch, CausticPhotons, Contribution, Gathered, GatheredBatch, LobeSample, PassInput, Splat,

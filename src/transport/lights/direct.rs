@@ -1,6 +1,6 @@
 //! Direct light: next event estimation, with multiple importance sampling against the Phong lobe.
 
-use super::emission;
+use super::PhotonEmission;
 use super::light_sampler::LightSampler;
 use crate::geometry::Sphere;
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
@@ -16,6 +16,8 @@ pub(in crate::transport) struct DirectLight<'a> {
     pub(in crate::transport) world: &'a World,
     /// Draws lights where there are many.
     pub(in crate::transport) light_sampler: &'a LightSampler,
+    /// How photons leave each light.
+    pub(in crate::transport) photon_emissions: &'a [PhotonEmission],
     /// MIS weights of light in Phong lobes.
     pub(in crate::transport) glossy_mis: &'a GlossyMis,
 }
@@ -97,7 +99,8 @@ impl DirectLight<'_> {
     #[inline]
     pub(in crate::transport) fn camera_weight(&self, light: usize, light_point: DVec3, seen: Option<MisVertex>) -> f64 {
         let Some(MisVertex { lobe, position, scattered }) = seen else { return 1.0 };
-        let density = scattered * emission::density(&self.world.lights[light], light_point, position);
+        let emission = &self.photon_emissions[light];
+        let density = scattered * emission.density(&self.world.lights[light], light_point, position);
         self.glossy_mis.camera_weight(light, density, lobe)
     }
 }

@@ -4,14 +4,19 @@
 //! |---|---|
 //! | `emission` | the first ray of a light path |
 //! | `light_sampler` | sampling of many lights by expected contribution |
+//! | `small_targets` | a quadtree over directions for objects that appear small from a light |
 //! | `projection_map` | directions in which a light meets mirrors and glass |
+//! | `photon_emission` | how photons of interreflection leave a light |
 //! | `direct` | direct light at a vertex: next event estimation |
 
 pub(in crate::transport) mod direct;
 pub(in crate::transport) mod emission;
 pub(in crate::transport) mod light_sampler;
+mod photon_emission;
 mod projection_map;
+mod small_targets;
 
 pub(in crate::transport) use direct::DirectLight;
 pub use light_sampler::LightSampler;
+pub use photon_emission::PhotonEmission;
 pub use projection_map::ProjectionMap;

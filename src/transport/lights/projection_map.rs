@@ -1,16 +1,20 @@
-//! The projection map: directions in which a light meets specular surfaces \[Jensen96\].
+//! The projection map: directions in which a light meets the surfaces that its photons are to reach \[Jensen96\].
 
 use super::emission::{self, Emission, Origin};
 use super::light_sampler::MOST_SAMPLED;
+use super::small_targets::{Cell, CellTree, Target, covered_areas};
 use crate::geometry::Primitive;
-use crate::math::{Sampler, Stream, octahedral};
-use crate::world::{Light, World};
+use crate::math::{Aabb, OrthonormalBasis, Sampler, Stream, octahedral, warp};
+use crate::world::{Light, Surface, World};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Cells along a side of the square of directions: a cell subtends about 3 degrees, narrower than most objects.
 const SIDE: usize = 64;
+/// Depth of the cells in a quadtree over the square.
+const DEPTH: u32 = SIDE.ilog2();
 /// Probe rays along a side of a cell; one in scenes where points sample only some of many lights.
 const PROBES_ALONG_SIDE: u64 = 2;
 /// Fraction of the paths that leave in all directions alike, in case the probes missed a specular surface (defensive sampling).
@@ -18,6 +22,14 @@ const DEFENSIVE_FRACTION: f64 = 0.03;
 /// Diagonal of a primitive's bounding box over its distance from the light, below which all probe rays may miss the primitive. Two cells
 /// subtend about as many radians; a larger primitive does not slip between their probe rays.
 const SMALL_PRIMITIVE: f64 = 0.1;
+/// Half the angle, radians, under which an object appears, below which the cells around it are refined: it fills less than a cell.
+const SMALL_OBJECT: f64 = 0.02;
+/// Least share of the paths for a small object beside larger ones: in proportion to its solid angle it might get none.
+const LEAST_SHARE: f64 = 1.0 / 64.0;
+/// Most that the least shares of all small objects take.
+const LEAST_SHARES: f64 = 0.25;
+/// Rays to a small object that tell whether the light meets it.
+const RAYS_TO_SMALL_OBJECT: u64 = 32;
 
 /// A density over the sphere of directions, constant in each cell of the equal-area octahedral square \[Clarberg08\].
 #[derive(Clone, Debug)]
@@ -26,45 +38,86 @@ pub struct ProjectionMap {
     rows: Vec<f64>,
     /// Cumulative distribution of the cells of each row.
     cells: Vec<[f64; SIDE + 1]>,
-    /// Fraction of the sphere in which the light meets specular surfaces.
+    /// The cells that small objects refine, by their index.
+    trees: BTreeMap<usize, CellTree>,
+    /// Fraction of the sphere in which the light meets the surfaces.
     covered: f64,
 }
 
+/// A function that tells whether photons are to reach a primitive.
+pub(super) trait Aim: Fn(u32) -> bool + Sync {}
+impl<F: Fn(u32) -> bool + Sync> Aim for F {}
+
 impl ProjectionMap {
-    /// The projection map of a light, from probe rays into every cell.
-    pub(in crate::transport) fn build(world: &World, light: &Light, light_index: u64) -> Self {
+    /// The projection map of a light for mirrors and glass.
+    pub(in crate::transport) fn of_specular(world: &World, light: &Light, light_index: u64) -> Self {
+        Self::build(world, light, light_index, None, &|p| world.is_specular(p))
+    }
+
+    /// The projection map of a light, from probe rays into every cell and to each object that appears small, and of a cone of directions.
+    pub(super) fn build(world: &World, light: &Light, light_index: u64, cone: Option<Cone>, aim: &impl Aim) -> Self {
+        let is_small_cone = |cone: &Cone| cone.radius < SMALL_OBJECT;
+        let small: BTreeMap<u32, Cone> = cones_of_objects(world, light, aim)
+            .into_iter()
+            .filter_map(|(object, cone)| Some((object, cone.filter(is_small_cone)?)))
+            .collect();
+        let is_small = |p: u32| object_of(world, p).is_some_and(|object| small.contains_key(&object));
+        let marks = |p: u32| aim(p) && !is_small(p);
         let along = if world.lights.len() > MOST_SAMPLED { 1 } else { PROBES_ALONG_SIDE };
+        let probes = Probes { world, light, light_index };
         let seen: Vec<bool> = (0..SIDE * SIDE)
             .into_par_iter()
             .with_min_len(64)
-            .map(|cell| {
-                (0..along * along).any(|probe| probe_hits_specular(world, light, light_index, cell, probe, along))
+            .map(|cell| (0..along * along).any(|probe| probes.meet_in_cell(cell, probe, along, &marks)))
+            .collect();
+        let mut is_marked = dilated(&seen);
+        for cell in cells_of_small_primitives(world, light, &marks) {
+            is_marked[cell] = true;
+        }
+        if let Some(wide) = cone.filter(|cone| !is_small_cone(cone)) {
+            (0..SIDE * SIDE)
+                .filter(|&cell| cell_at(cell).may_meet(&wide.target()))
+                .for_each(|cell| is_marked[cell] = true);
+        }
+        let mut cones: Vec<Cone> = (0..)
+            .zip(small)
+            .filter_map(|(k, (object, cone))| {
+                let of_object = |p: u32| aim(p) && object_of(world, p) == Some(object);
+                probes.meet_in_cone(k, cone, &of_object).then_some(cone)
             })
             .collect();
-        let mut is_specular = dilated(&seen);
-        for cell in cells_of_small_objects(world, light) {
-            is_specular[cell] = true;
-        }
-        Self::from_cells(&is_specular)
+        cones.extend(cone.filter(is_small_cone));
+        Self::from_cells(&is_marked, &cones)
     }
 
-    fn from_cells(is_specular: &[bool]) -> Self {
-        let count = is_specular.iter().filter(|&&is| is).count();
+    fn from_cells(is_marked: &[bool], cones: &[Cone]) -> Self {
+        let count = is_marked.iter().filter(|&&is| is).count();
         let total = (SIDE * SIDE) as f64;
+        let marked_area = count as f64 / total;
+        let (targets, areas) = targets(cones, marked_area);
+        let small_share: f64 = targets.iter().map(|target| target.share).sum();
+        let rest = 1.0 - DEFENSIVE_FRACTION - small_share;
         let probability = |cell: usize| {
             let uniform = 1.0 / total;
-            match (is_specular[cell], count) {
-                (_, 0) => uniform,
-                (true, _) => (1.0 - DEFENSIVE_FRACTION) / count as f64 + DEFENSIVE_FRACTION * uniform,
+            match (is_marked[cell], count) {
+                (_, 0) => (1.0 - small_share) * uniform,
+                (true, _) => rest / count as f64 + DEFENSIVE_FRACTION * uniform,
                 (false, _) => DEFENSIVE_FRACTION * uniform,
             }
         };
+        let mut trees = BTreeMap::new();
         let mut rows = vec![0.0];
         let mut cells = Vec::with_capacity(SIDE);
         for row in 0..SIDE {
             let mut cumulative = [0.0; SIDE + 1];
             for column in 0..SIDE {
-                cumulative[column + 1] = cumulative[column] + probability(row * SIDE + column);
+                let index = row * SIDE + column;
+                let mut mass = probability(index);
+                if let Some((tree, with_targets)) = CellTree::new(cell_at(index), &targets, &areas, mass * total) {
+                    mass = with_targets;
+                    trees.insert(index, tree);
+                }
+                cumulative[column + 1] = cumulative[column] + mass;
             }
             let sum = cumulative[SIDE];
             cells.push(cumulative.map(|x| x / sum));
@@ -72,7 +125,7 @@ impl ProjectionMap {
         }
         let all = rows[SIDE];
         rows.iter_mut().for_each(|x| *x /= all);
-        Self { rows, cells, covered: count as f64 / total }
+        Self { rows, cells, trees, covered: marked_area + areas.iter().sum::<f64>() }
     }
 
     /// Samples a direction; returns it with its density per steradian. Monotonic in both numbers, so that stratified numbers give
@@ -81,12 +134,27 @@ impl ProjectionMap {
     fn sample(&self, u: DVec2) -> (DVec3, f64) {
         let (row, y, row_probability) = invert(&self.rows, u.y);
         let (column, x, cell_probability) = invert(&self.cells[row], u.x);
-        let square = DVec2::new(column as f64 + x, row as f64 + y) / SIDE as f64;
         let pdf = row_probability * cell_probability * (SIDE * SIDE) as f64 / (4.0 * PI);
-        (octahedral::direction_from_square(square), pdf)
+        let (within, density) = self
+            .trees
+            .get(&(row * SIDE + column))
+            .map_or((DVec2::new(x, y), 1.0), |tree| tree.sample(DVec2::new(x, y)));
+        let square = (DVec2::new(column as f64, row as f64) + within) / SIDE as f64;
+        (octahedral::direction_from_square(square), pdf * density)
     }
 
-    /// Samples the first ray of a path towards specular surfaces; `None` where the light does not shine in the sampled direction.
+    /// The density of [`ProjectionMap::emit`] in a direction, per steradian.
+    pub(super) fn pdf(&self, direction: DVec3) -> f64 {
+        let square = octahedral::square_from_direction(direction) * SIDE as f64;
+        let cell = square.floor().clamp(DVec2::ZERO, DVec2::splat((SIDE - 1) as f64));
+        let (row, column) = (cell.y as usize, cell.x as usize);
+        let probability =
+            (self.rows[row + 1] - self.rows[row]) * (self.cells[row][column + 1] - self.cells[row][column]);
+        let density = self.trees.get(&(row * SIDE + column)).map_or(1.0, |tree| tree.density(square - cell));
+        probability * density * (SIDE * SIDE) as f64 / (4.0 * PI)
+    }
+
+    /// Samples the first ray of a path towards the surfaces; `None` where the light does not shine in the sampled direction.
     #[inline]
     pub(in crate::transport) fn emit(&self, light: &Light, sampler: &mut Sampler) -> Option<Emission> {
         let Origin { position, normal, strength } = emission::sample_origin(light, sampler);
@@ -95,7 +163,7 @@ impl ProjectionMap {
         (cos > 0.0).then(|| Emission { origin: position, direction, flux: strength * (cos / pdf) as f32 })
     }
 
-    /// Fraction of the sphere of directions in which the light meets specular surfaces, 0 to 1.
+    /// Fraction of the sphere of directions in which the light meets the surfaces, 0 to 1.
     pub fn covered(&self) -> f64 {
         self.covered
     }
@@ -110,20 +178,52 @@ fn invert(cumulative: &[f64], x: f64) -> (usize, f64, f64) {
     (index, ((x - cumulative[index]) / probability).clamp(0.0, 1.0), probability)
 }
 
-/// Whether the probe ray into one of the `along` times `along` strata of a cell meets a specular surface first.
-fn probe_hits_specular(world: &World, light: &Light, light_index: u64, cell: usize, probe: u64, along: u64) -> bool {
-    let index = cell as u64 * along * along + probe;
-    let mut sampler = Sampler::new(0, Stream::Probe, light_index, index);
-    let origin = emission::sample_origin(light, &mut sampler);
-    let stratum = DVec2::new((probe % along) as f64, (probe / along) as f64);
-    let within = (stratum + sampler.next_2d()) / along as f64;
-    let corner = DVec2::new((cell % SIDE) as f64, (cell / SIDE) as f64);
-    let direction = octahedral::direction_from_square((corner + within) / SIDE as f64);
-    if origin.normal.is_some_and(|normal| normal.dot(direction) <= 0.0) {
-        return false;
+/// The cell of this index.
+fn cell_at(index: usize) -> Cell {
+    Cell { depth: DEPTH, x: (index % SIDE) as u64, y: (index / SIDE) as u64 }
+}
+
+/// Probe rays from a light.
+struct Probes<'a> {
+    world: &'a World,
+    light: &'a Light,
+    light_index: u64,
+}
+
+impl Probes<'_> {
+    /// Whether the probe ray into one of the `along` times `along` strata of a cell meets such a surface first.
+    fn meet_in_cell(&self, cell: usize, probe: u64, along: u64, is_aim: &impl Aim) -> bool {
+        let index = cell as u64 * along * along + probe;
+        let mut sampler = Sampler::new(0, Stream::Probe, self.light_index, index);
+        let origin = emission::sample_origin(self.light, &mut sampler);
+        let stratum = DVec2::new((probe % along) as f64, (probe / along) as f64);
+        let within = (stratum + sampler.next_2d()) / along as f64;
+        let corner = DVec2::new((cell % SIDE) as f64, (cell / SIDE) as f64);
+        let direction = octahedral::direction_from_square((corner + within) / SIDE as f64);
+        self.meet(&origin, direction, is_aim)
     }
-    let ray = emission::ray_from_light(world, origin.position, direction);
-    world.aggregate.closest_hit(&ray).is_some_and(|hit| world.is_specular(hit.primitive))
+
+    /// Whether any of some rays in a cone of directions meets such a surface first.
+    fn meet_in_cone(&self, cone_index: u64, cone: Cone, is_aim: &impl Aim) -> bool {
+        let basis = OrthonormalBasis::from_normal(cone.direction);
+        // 1 - cos of the angle.
+        let height = 2.0 * (0.5 * cone.radius).sin().powi(2);
+        (0..RAYS_TO_SMALL_OBJECT).any(|k| {
+            let index =
+                (SIDE * SIDE) as u64 * PROBES_ALONG_SIDE * PROBES_ALONG_SIDE + cone_index * RAYS_TO_SMALL_OBJECT + k;
+            let mut sampler = Sampler::new(0, Stream::Probe, self.light_index, index);
+            let origin = emission::sample_origin(self.light, &mut sampler);
+            self.meet(&origin, basis.world_from_local(warp::uniform_cone(sampler.next_2d(), height)), is_aim)
+        })
+    }
+
+    fn meet(&self, origin: &Origin, direction: DVec3, is_aim: &impl Aim) -> bool {
+        if origin.normal.is_some_and(|normal| normal.dot(direction) <= 0.0) {
+            return false;
+        }
+        let ray = emission::ray_from_light(self.world, origin.position, direction);
+        self.world.aggregate.closest_hit(&ray).is_some_and(|hit| is_aim(hit.primitive))
+    }
 }
 
 /// The marked cells and their eight neighbours.
@@ -135,12 +235,12 @@ fn dilated(marked: &[bool]) -> Vec<bool> {
     (0..SIDE * SIDE).map(|cell| near(cell / SIDE, cell % SIDE)).collect()
 }
 
-/// Cells towards specular primitives that appear smaller than [`SMALL_PRIMITIVE`].
-fn cells_of_small_objects(world: &World, light: &Light) -> Vec<usize> {
+/// Cells towards primitives that appear smaller than [`SMALL_PRIMITIVE`].
+fn cells_of_small_primitives(world: &World, light: &Light, is_aim: &impl Aim) -> Vec<usize> {
     let center = light.center();
     let mut cells = Vec::new();
     for (index, primitive) in world.aggregate.primitives().iter().enumerate() {
-        if matches!(primitive, Primitive::Plane(_)) || !world.is_specular(index as u32) {
+        if matches!(primitive, Primitive::Plane(_)) || !is_aim(index as u32) {
             continue;
         }
         let bounds = primitive.bounds();
@@ -155,6 +255,69 @@ fn cells_of_small_objects(world: &World, light: &Light) -> Vec<usize> {
     cells
 }
 
+/// A cone of directions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cone {
+    /// The unit axis.
+    direction: DVec3,
+    /// Half the angle, radians.
+    radius: f64,
+}
+
+impl Cone {
+    /// The cone in which a ball appears at this offset; `None` from inside of it.
+    pub(super) fn around(offset: DVec3, radius: f64) -> Option<Self> {
+        let sine = radius / offset.length();
+        (sine < 1.0).then(|| Self { direction: offset.normalize(), radius: sine.asin() })
+    }
+
+    /// The solid angle over that of the sphere.
+    pub(super) fn fraction_of_sphere(&self) -> f64 {
+        (0.5 * self.radius).sin().powi(2)
+    }
+
+    fn target(&self) -> Target {
+        Target { direction: self.direction, radius: self.radius, share: 0.0 }
+    }
+}
+
+/// The cones in which objects with surfaces to reach appear from all points of the light; `None` for an object around the light.
+pub(super) fn cones_of_objects(world: &World, light: &Light, aim: &impl Aim) -> BTreeMap<u32, Option<Cone>> {
+    let mut bounds = BTreeMap::<u32, Aabb>::new();
+    for (p, primitive) in (0..).zip(world.aggregate.primitives()) {
+        if let Some(object) = object_of(world, p).filter(|_| aim(p)) {
+            let unbounded = Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+            let of_primitive = if matches!(primitive, Primitive::Plane(_)) { unbounded } else { primitive.bounds() };
+            let of_object = bounds.entry(object).or_insert(Aabb::EMPTY);
+            *of_object = of_object.union(&of_primitive);
+        }
+    }
+    let cone = |bounds: &Aabb| Cone::around(bounds.center() - light.center(), 0.5 * bounds.diagonal() + light.reach());
+    bounds.iter().map(|(&object, bounds)| (object, cone(bounds))).collect()
+}
+
+fn object_of(world: &World, primitive: u32) -> Option<u32> {
+    match world.surfaces[primitive as usize] {
+        Surface::Object { object, .. } => Some(object),
+        Surface::Light(_) => None,
+    }
+}
+
+/// The targets of the cones beside cells that cover this area of the unit square, and the areas that the targets cover. Each gets a share
+/// of the paths in proportion to its area, but not less than [`LEAST_SHARE`].
+fn targets(cones: &[Cone], marked_area: f64) -> (Vec<Target>, Vec<f64>) {
+    let mut targets: Vec<Target> = cones.iter().map(Cone::target).collect();
+    let areas = covered_areas(&targets);
+    let least = LEAST_SHARE.min(LEAST_SHARES / cones.len() as f64);
+    let total = marked_area + areas.iter().sum::<f64>();
+    let weights: Vec<f64> = areas.iter().map(|area| (area / total).max(least)).collect();
+    let sum = marked_area / total + weights.iter().sum::<f64>();
+    for (target, weight) in targets.iter_mut().zip(weights) {
+        target.share = (1.0 - DEFENSIVE_FRACTION) * weight / sum;
+    }
+    (targets, areas)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,7 +328,7 @@ mod tests {
     fn samples_have_their_density() {
         let cells: Vec<bool> = (0..SIDE * SIDE).map(|cell| cell % 37 == 0 || cell / SIDE > 60).collect();
         let marked = cells.iter().filter(|&&is| is).count() as f64;
-        let map = ProjectionMap::from_cells(&cells);
+        let map = ProjectionMap::from_cells(&cells, &[]);
         assert_eq!(map.covered(), marked / 4096.0);
         // A third of a cell aside, so that bins also show where in the cells samples lie.
         let aside = DVec2::splat(1.0 / (3.0 * SIDE as f64));
@@ -188,7 +351,7 @@ mod tests {
     #[test]
     fn densities_integrate_to_one_and_cover_everything() {
         let cells: Vec<bool> = (0..SIDE * SIDE).map(|cell| cell % 37 == 0).collect();
-        let map = ProjectionMap::from_cells(&cells);
+        let map = ProjectionMap::from_cells(&cells, &[]);
         let n = 256;
         let mut reciprocal = 0.0;
         let mut mean = DVec3::ZERO;

@@ -15,7 +15,7 @@ pub fn global_photon_pass(input: &PassInput) -> Option<GlobalPhotons> {
     let blocks: Vec<GlobalPhotons> = path_blocks(plan.global_paths.iter().map(paths))
         .into_par_iter()
         .map(|block| {
-            let mut tracer = GlobalPhotonTracer::new(world, Some(&plan.glossy_mis));
+            let mut tracer = GlobalPhotonTracer::new(world, &plan.photon_emissions, Some(&plan.glossy_mis));
             let paths = paths(&plan.global_paths[block.light]);
             let count = paths.end - paths.start;
             for index in block.paths.clone() {

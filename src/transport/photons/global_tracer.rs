@@ -3,6 +3,7 @@
 use super::photon::Photon;
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
 use crate::transport::counters::{Counted, Counters};
+use crate::transport::lights::PhotonEmission;
 use crate::transport::lights::emission::{self, Emission};
 use crate::transport::points::{GlossyMis, SpecularEvent, Vertex, bsdf};
 use crate::world::{Lobe, Media, Surface, World};
@@ -33,6 +34,7 @@ impl Counted for GlobalPhotons {
 /// Traces photon paths and stores their photons.
 pub(in crate::transport) struct GlobalPhotonTracer<'a> {
     world: &'a World,
+    emissions: &'a [PhotonEmission],
     glossy_mis: Option<&'a GlossyMis>,
     /// The photons so far.
     pub(in crate::transport) stored: GlobalPhotons,
@@ -58,10 +60,16 @@ struct PhotonPath {
 }
 
 /// The points, a little in front of surfaces, where one path of a light meets diffuse and glossy surfaces, from the first one on.
-pub(in crate::transport) fn arrivals_of_path(world: &World, light: usize, mut sampler: Sampler) -> Vec<DVec3> {
-    let mut tracer = GlobalPhotonTracer::new(world, None);
+pub(in crate::transport) fn arrivals_of_path(
+    world: &World,
+    emissions: &[PhotonEmission],
+    light: usize,
+    mut sampler: Sampler,
+) -> Vec<DVec3> {
+    let mut tracer = GlobalPhotonTracer::new(world, emissions, None);
+    let Some(path) = tracer.start(light, 1, &mut sampler) else { return Vec::new() };
     // As if a surface had scattered it before: so the first arrival leaves a photon, too.
-    let path = PhotonPath { was_scattered: true, ..tracer.start(light, 1, &mut sampler) };
+    let path = PhotonPath { was_scattered: true, ..path };
     tracer.follow(path, &mut sampler);
     let GlobalPhotons { photons, indirect_caustics, .. } = tracer.stored;
     let in_front =
@@ -71,21 +79,27 @@ pub(in crate::transport) fn arrivals_of_path(world: &World, light: usize, mut sa
 
 impl<'a> GlobalPhotonTracer<'a> {
     /// A tracer with nothing stored. Without MIS weights no photons are stored at Phong lobes.
-    pub(in crate::transport) fn new(world: &'a World, glossy_mis: Option<&'a GlossyMis>) -> Self {
-        Self { world, glossy_mis, stored: GlobalPhotons::default() }
+    pub(in crate::transport) fn new(
+        world: &'a World,
+        emissions: &'a [PhotonEmission],
+        glossy_mis: Option<&'a GlossyMis>,
+    ) -> Self {
+        Self { world, emissions, glossy_mis, stored: GlobalPhotons::default() }
     }
 
     /// Traces one of `path_count` paths of a light.
     pub(in crate::transport) fn trace(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
-        let path = self.start(light, path_count, &mut sampler);
-        self.follow(path, &mut sampler);
+        if let Some(path) = self.start(light, path_count, &mut sampler) {
+            self.follow(path, &mut sampler);
+        }
     }
 
-    fn start(&mut self, light: usize, path_count: u64, sampler: &mut Sampler) -> PhotonPath {
-        let Emission { origin, direction, flux } = emission::emit(&self.world.lights[light], sampler);
+    /// The first ray of a path; `None` where the light does not shine in the sampled direction.
+    fn start(&mut self, light: usize, path_count: u64, sampler: &mut Sampler) -> Option<PhotonPath> {
         self.stored.counters.global_paths += 1;
+        let Emission { origin, direction, flux } = self.emissions[light].emit(&self.world.lights[light], sampler)?;
         let ray = emission::ray_from_light(self.world, origin, direction);
-        PhotonPath {
+        Some(PhotonPath {
             light,
             origin,
             ray,
@@ -95,7 +109,7 @@ impl<'a> GlobalPhotonTracer<'a> {
             was_scattered: false,
             last_was_specular: false,
             mis_density: None,
-        }
+        })
     }
 
     fn follow(&mut self, mut path: PhotonPath, sampler: &mut Sampler) {
@@ -157,7 +171,7 @@ impl<'a> GlobalPhotonTracer<'a> {
                 let light = &self.world.lights[path.light];
                 let scattered =
                     f64::from(bsdf::eval(&vertex.scattering, vertex.n_shade, direction, vertex.wo).max_element());
-                let emitted = emission::density(light, path.origin, vertex.point.position);
+                let emitted = self.emissions[path.light].density(light, path.origin, vertex.point.position);
                 Some(scattered * vertex.wo.dot(vertex.n_side) * emitted)
             }
             (1.., true) => path.mis_density,
@@ -243,7 +257,8 @@ mod tests {
             "{polished}{room}{}[render]\nmax_bounces = {max_bounces}\n",
             lamp([0.3, -0.2, 0.5])
         ));
-        let mut tracer = GlobalPhotonTracer::new(&world, None);
+        let emissions = PhotonEmission::of_lights(&world);
+        let mut tracer = GlobalPhotonTracer::new(&world, &emissions, None);
         for index in 0..PATHS {
             tracer.trace(0, PATHS, Sampler::new(4, Stream::Camera, 0, index));
         }

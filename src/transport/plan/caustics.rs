@@ -35,7 +35,8 @@ pub(super) fn plan(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
         return None;
     }
     let lights = world.lights.iter().enumerate();
-    let maps: Vec<ProjectionMap> = lights.map(|(i, light)| ProjectionMap::build(world, light, i as u64)).collect();
+    let maps: Vec<ProjectionMap> =
+        lights.map(|(i, light)| ProjectionMap::of_specular(world, light, i as u64)).collect();
     let weights = world.lights.iter().zip(&maps).map(|(light, map)| power(light) * map.covered()).collect();
     let total = of_pixels(world.camera.pixel_count(), CAUSTIC_PATHS_PER_PIXEL);
     let paths = allocate(weights, total);

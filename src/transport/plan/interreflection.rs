@@ -4,6 +4,7 @@ use super::light_importance;
 use super::notes::{Notes, PlanItem};
 use super::paths::{allocate, of_pixels, power};
 use crate::geometry::Primitive;
+use crate::transport::lights::PhotonEmission;
 use crate::world::World;
 
 /// Photon paths for interreflection in a full iteration, for each pixel: about as much work as the pixel's camera paths.
@@ -12,7 +13,7 @@ const GLOBAL_PATHS_PER_PIXEL: f64 = 4.0;
 const LOW_IMPORTANCE: f64 = 0.01;
 
 /// Photon paths for interreflection in a full iteration, by light; empty without interreflection.
-pub(super) fn plan(world: &World, notes: &mut Notes) -> Vec<u64> {
+pub(super) fn plan(world: &World, emissions: &[PhotonEmission], notes: &mut Notes) -> Vec<u64> {
     const ITEM: PlanItem = PlanItem::Interreflection;
     let scattering: Vec<u32> = (0..world.surfaces.len() as u32).filter(|&p| world.scattered_bound(p) > 0.0).collect();
     let needless = if world.max_bounces < 2 {
@@ -36,7 +37,7 @@ pub(super) fn plan(world: &World, notes: &mut Notes) -> Vec<u64> {
         },
     );
     let total = of_pixels(world.camera.pixel_count(), GLOBAL_PATHS_PER_PIXEL);
-    allocate(weights(world, notes), total)
+    allocate(weights(world, emissions, notes), total)
 }
 
 /// Photon paths that may bring light to Phong lobes, by light: the paths of interreflection; empty without a lobe that gathers photons.
@@ -73,8 +74,8 @@ fn may_light_itself(world: &World, primitive: u32) -> bool {
 
 /// Weights of the lights' path counts. A light's contribution, of whose paths the fraction `p` matters, has a variance in proportion to
 /// `power^2 p`; the sum over all lights is least for counts in proportion to the root.
-fn weights(world: &World, notes: &mut Notes) -> Vec<f64> {
-    let importances = light_importance::of_lights(world);
+fn weights(world: &World, emissions: &[PhotonEmission], notes: &mut Notes) -> Vec<f64> {
+    let importances = light_importance::of_lights(world, emissions);
     let all = importances.len();
     let low = importances.iter().filter(|&&importance| importance < LOW_IMPORTANCE).count();
     if 0 < low && low < all {

@@ -3,6 +3,7 @@
 
 use crate::geometry::Primitive;
 use crate::math::{Ray, Sampler, Stream};
+use crate::transport::lights::PhotonEmission;
 use crate::transport::photons::global_tracer::arrivals_of_path;
 use crate::world::World;
 use glam::{DVec3, dvec3};
@@ -21,22 +22,22 @@ const MOST_MIRRORS: usize = 8;
 
 /// The fraction of each light's paths that arrive where the camera may see them, directly or in mirrors; above 0. Always 1 for a single
 /// light.
-pub(super) fn of_lights(world: &World) -> Vec<f64> {
+pub(super) fn of_lights(world: &World, emissions: &[PhotonEmission]) -> Vec<f64> {
     let count = world.lights.len();
     if count < 2 {
         return vec![1.0; count];
     }
     let mirrors = mirrors_in_view(world);
     let paths = (PATHS_OF_ALL / count as u64).clamp(LEAST_PATHS, PATHS);
-    (0..count).into_par_iter().map(|light| of_light(world, light, paths, &mirrors)).collect()
+    (0..count).into_par_iter().map(|light| of_light(world, emissions, light, paths, &mirrors)).collect()
 }
 
-fn of_light(world: &World, light: usize, paths: u64, mirrors: &[u32]) -> f64 {
+fn of_light(world: &World, emissions: &[PhotonEmission], light: usize, paths: u64, mirrors: &[u32]) -> f64 {
     let matters = |index: &u64| {
         let sampler = |sequence| Sampler::new(0, Stream::Probe, sequence, *index);
         let light_sequence = 2 * (world.lights.len() + light) as u64;
         let mut targets = sampler(light_sequence + 1);
-        let arrivals = arrivals_of_path(world, light, sampler(light_sequence));
+        let arrivals = arrivals_of_path(world, emissions, light, sampler(light_sequence));
         arrivals.into_iter().any(|position| may_be_seen(world, position, mirrors, &mut targets))
     };
     let seen = (0..paths).filter(matters).count();

@@ -5,7 +5,7 @@ use super::interreflection;
 use super::notes::Notes;
 use super::radii::{GLOSSY_RADIUS, Radii};
 use super::render_plan::Plan;
-use crate::transport::lights::LightSampler;
+use crate::transport::lights::{LightSampler, PhotonEmission};
 use crate::transport::points::GlossyMis;
 use crate::world::World;
 use std::sync::Arc;
@@ -19,7 +19,8 @@ impl Plan {
         if lit && caustics.is_none() {
             notes.skip(SEEN_INDIRECTLY, "there are no caustics");
         }
-        let global_paths = if lit { interreflection::plan(world, &mut notes) } else { Vec::new() };
+        let photon_emissions = PhotonEmission::of_lights(world);
+        let global_paths = if lit { interreflection::plan(world, &photon_emissions, &mut notes) } else { Vec::new() };
         let glossy_paths = interreflection::plan_gloss(world, &global_paths, &mut notes);
         notes.textures(world);
         notes.background(world);
@@ -29,6 +30,7 @@ impl Plan {
             caustics,
             light_sampler: Arc::new(LightSampler::new(world)),
             glossy_mis: GlossyMis::new(world.camera, glossy_paths, GLOSSY_RADIUS),
+            photon_emissions: Arc::new(photon_emissions),
             global_paths,
             reuses_lobes: world.object_primitives().any(|p| world.has_uniform_lobe(p)),
             radii: Radii::new(world),

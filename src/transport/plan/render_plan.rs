@@ -4,7 +4,7 @@ use super::notes::PlanNote;
 use super::radii::Radii;
 use crate::transport::density::Bandwidth;
 use crate::transport::density::sample_allocation::SampleAllocation;
-use crate::transport::lights::{LightSampler, ProjectionMap};
+use crate::transport::lights::{LightSampler, PhotonEmission, ProjectionMap};
 use crate::transport::points::GlossyMis;
 use crate::world::Camera;
 use std::sync::Arc;
@@ -22,6 +22,8 @@ pub struct Plan {
     pub light_sampler: Arc<LightSampler>,
     /// Weights between camera paths and photons for light in Phong lobes.
     pub glossy_mis: GlossyMis,
+    /// How photons of interreflection leave each light.
+    pub photon_emissions: Arc<Vec<PhotonEmission>>,
     /// Photon paths of interreflection in a full iteration, by light; empty without interreflection.
     pub global_paths: Vec<u64>,
     /// Whether neighbours reuse each other's samples of Phong lobes.

@@ -65,7 +65,12 @@ enum LastEvent {
 impl<'a> CameraTracer<'a> {
     /// A tracer that found nothing yet.
     pub(super) fn new(world: &'a World, plan: &'a Plan, batch: CameraBatch) -> Self {
-        let direct = DirectLight { world, light_sampler: &plan.light_sampler, glossy_mis: &plan.glossy_mis };
+        let direct = DirectLight {
+            world,
+            light_sampler: &plan.light_sampler,
+            photon_emissions: &plan.photon_emissions,
+            glossy_mis: &plan.glossy_mis,
+        };
         Self { world, plan, direct, batch, branches: ArrayVec::new() }
     }
 
