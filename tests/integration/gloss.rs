@@ -1,13 +1,12 @@
 //! A small bright spot reflected by a glossy floor: light that camera paths hardly find. Its radiance is known by summation over the spot.
 
-use crate::support::{photon_radiance, session_of_seed, world};
-use glam::{DVec2, DVec3};
+use crate::support::{photon_radiance, session_of_seed, spot_radiance, spot_scene, world};
+use glam::DVec3;
 use patchlight::transport::{PassInput, Plan, camera_pass, lobe_samples};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-/// Half a side of the square spot about (2, 1.2, 0), which looks to -x.
+/// Half a side of the bright spot.
 const HALF: f64 = 0.02;
-const LAMP: DVec3 = DVec3::new(1.98, 1.2, 0.0);
 const CAMERA: DVec3 = DVec3::new(-1.0, 1.2, 0.0);
 const SIZE: u32 = 32;
 const EXPONENT: f64 = 30.0;
@@ -22,13 +21,9 @@ fn scene(max_bounces: u32) -> String {
         albedo = [0, 0, 0]\nspecular = [0.5, 0.5, 0.5]\nexponent = {EXPONENT}
         [[object]]\nname = \"floor\"\ntype = \"quad\"\nmaterial = \"gloss\"
         corner = [-1, 0, 1]\nedge_u = [3, 0, 0]\nedge_v = [0, 0, -2]
-        [[object]]\nname = \"spot\"\ntype = \"quad\"\nmaterial = \"white\"
-        corner = [2, {spot}, {HALF}]\nedge_u = [0, 0, -{side}]\nedge_v = [0, {side}, 0]
-        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = {lamp:?}\nintensity = [1, 1, 1]\n",
+        {spot}",
         camera = CAMERA.to_array(),
-        spot = 1.2 - HALF,
-        side = 2.0 * HALF,
-        lamp = LAMP.to_array(),
+        spot = spot_scene(HALF, "white"),
     )
 }
 
@@ -40,20 +35,8 @@ fn expected(column: u32, row: u32) -> f64 {
     let ray = forward + at(column) * right - at(row) * right.cross(forward);
     let floor = CAMERA - CAMERA.y / ray.y * ray;
     let mirrored = (ray * DVec3::new(1.0, -1.0, 1.0)).normalize();
-    let n = 24;
-    let offset = |k: i32| HALF * (f64::from(2 * k + 1) / f64::from(n) - 1.0);
-    let from_cell = |k: i32| {
-        let DVec2 { x: y, y: z } = DVec2::new(offset(k / n), offset(k % n));
-        let spot = DVec3::new(2.0, 1.2 + y, z);
-        let to_lamp = LAMP - spot;
-        let to_spot = spot - floor;
-        let lit = -to_lamp.x / to_lamp.length().powi(3);
-        let reached = to_spot.x * to_spot.y / to_spot.length_squared().powi(2);
-        let lobe = 0.5 * (EXPONENT + 2.0) / TAU * mirrored.dot(to_spot.normalize()).max(0.0).powf(EXPONENT);
-        0.5 / PI * lit * reached * lobe
-    };
-    let area = (2.0 * HALF / f64::from(n)).powi(2);
-    area * (0..n * n).map(from_cell).sum::<f64>()
+    let lobe = |spot: DVec3| mirrored.dot((spot - floor).normalize()).max(0.0).powf(EXPONENT);
+    spot_radiance(HALF, 24, floor, |spot| 0.5 * (EXPONENT + 2.0) / TAU * lobe(spot))
 }
 
 /// The mean of the pixels and their root mean square error, both over the expected mean.

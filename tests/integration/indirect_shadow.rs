@@ -1,14 +1,13 @@
 //! The shadow that a small bright spot casts: interreflection with an edge, known by summation over the spot.
 
-use crate::support::{photon_radiance, session_of_seed, world};
+use crate::support::{photon_radiance, session_of_seed, spot_radiance, spot_scene, world};
 use glam::{DVec2, DVec3};
 use patchlight::math::Rgb;
 use patchlight::transport::Plan;
 use std::f64::consts::PI;
 
-/// Half a side of the square spot about (2, 1.2, 0), which looks to -x.
+/// Half a side of the bright spot.
 const HALF: f64 = 0.03;
-const LAMP: DVec3 = DVec3::new(1.97, 1.2, 0.0);
 /// The x where the opaque screen stands on the floor, and its height.
 const SCREEN: DVec2 = DVec2::new(0.5, 0.6);
 const WIDTH: u32 = 64;
@@ -22,34 +21,19 @@ fn scene(x: f64, max_bounces: u32) -> String {
         [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
         [[material]]\nname = \"black\"\ntype = \"diffuse\"\nalbedo = [0, 0, 0]
         [[object]]\nname = \"floor\"\ntype = \"quad\"\nmaterial = \"grey\"\ncorner = [-2.5, 0, 2]\nedge_u = [5, 0, 0]\nedge_v = [0, 0, -4]
-        [[object]]\nname = \"spot\"\ntype = \"quad\"\nmaterial = \"grey\"
-        corner = [2, {spot}, {HALF}]\nedge_u = [0, 0, -{side}]\nedge_v = [0, {side}, 0]
         [[object]]\nname = \"screen\"\ntype = \"quad\"\nmaterial = \"black\"
         corner = [{screen}, 0, 2]\nedge_u = [0, 0, -4]\nedge_v = [0, {height}, 0]
-        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = {lamp:?}\nintensity = [1, 1, 1]\n",
-        spot = 1.2 - HALF,
-        side = 2.0 * HALF,
+        {spot}",
         screen = SCREEN.x,
         height = SCREEN.y,
-        lamp = LAMP.to_array(),
+        spot = spot_scene(HALF, "grey"),
     )
 }
 
 /// Radiance of the floor by light that the spot reflected.
 fn expected(x: f64, z: f64) -> f64 {
-    let n = 48;
-    let at = |k: i32| HALF * (f64::from(2 * k + 1) / f64::from(n) - 1.0);
-    let from_cell = |k: i32| {
-        let spot = DVec3::new(2.0, 1.2 + at(k / n), at(k % n));
-        let to_lamp = LAMP - spot;
-        let to_spot = spot - DVec3::new(x, 0.0, z);
-        let is_hidden = x < SCREEN.x && (SCREEN.x - x) / (2.0 - x) * spot.y < SCREEN.y;
-        let lit = -to_lamp.x / to_lamp.length().powi(3);
-        let reached = to_spot.x * to_spot.y / to_spot.length_squared().powi(2);
-        if is_hidden { 0.0 } else { 0.5 / PI * lit * reached }
-    };
-    let area = (2.0 * HALF / f64::from(n)).powi(2);
-    0.5 / PI * area * (0..n * n).map(from_cell).sum::<f64>()
+    let is_hidden = |spot: DVec3| x < SCREEN.x && (SCREEN.x - x) / (2.0 - x) * spot.y < SCREEN.y;
+    spot_radiance(HALF, 48, DVec3::new(x, 0.0, z), |spot| if is_hidden(spot) { 0.0 } else { 0.5 / PI })
 }
 
 /// The rendered and the expected means of the columns. A mean over a column keeps noise from counting as an edge.
@@ -92,7 +76,8 @@ fn the_edge_of_an_indirect_shadow_is_sharp() {
         let brightest = truth.iter().fold(0.0, |a: f64, &b| a.max(b));
         let middle = WIDTH as usize / 2 - 8..WIDTH as usize / 2 + 8;
         let error = |columns: &[f64]| middle.clone().map(|k| (columns[k] - truth[k]).abs()).sum::<f64>() / 16.0;
-        assert!(error(&found) < 0.11 * brightest, "{} of {brightest}", error(&found));
+        // 0.082 to 0.091 by the seed; with the unrefined radii 0.101 to 0.111.
+        assert!(error(&found) < 0.096 * brightest, "{} of {brightest}", error(&found));
         error(&found) / error(&unrefined)
     });
     let mean = ratios.iter().sum::<f64>() / 3.0;

@@ -1,6 +1,6 @@
 //! Properties of the passes: energy, known positions of caustics, independence of threads.
 
-use crate::support::{mean, session, world};
+use crate::support::{HEAD, mean, session, world};
 use glam::DVec3;
 use patchlight::engine::FilmSums;
 use patchlight::geometry::Primitive;
@@ -16,13 +16,14 @@ fn caustic_photons(world: &World, iterations: u64) -> Vec<Photon> {
 /// C5: a glass ball absorbs no light: all light that is aimed at the ball arrives on the walls around it.
 #[test]
 fn a_glass_ball_conserves_energy() {
-    let text = "[camera]\nposition = [0, 0, 3.5]\ntarget = [0, 0, 0]\nfov_y = 40\n[[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5
-        [[material]]\nname = \"wall\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
+    let text = format!(
+        "{HEAD}[[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5
         [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 1\nmaterial = \"glass\"
-        [[object]]\nname = \"room\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 4\nmaterial = \"wall\"
-        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = [1, 2, 3]\n";
+        [[object]]\nname = \"room\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 5\nmaterial = \"grey\"
+        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = [1, 2, 3]\n"
+    );
     let iterations = 4;
-    let total: DVec3 = caustic_photons(&world(text), iterations).iter().map(|p| p.flux.as_dvec3()).sum();
+    let total: DVec3 = caustic_photons(&world(&text), iterations).iter().map(|p| p.flux.as_dvec3()).sum();
     // The ball fills 2 pi (1 - sqrt(1 - 1/4)) steradians.
     let expected = std::f64::consts::TAU * (1.0 - 0.75f64.sqrt());
     for (found, intensity) in total.to_array().into_iter().zip([1.0, 2.0, 3.0]) {
@@ -38,12 +39,11 @@ fn a_patch_out_of_reach_of_rays_is_not_prepared() {
     let patch = |name: &str, x: f64| {
         let row = |j: f64| (0..4).map(|i| format!("[{}, {}, 0]", x + 0.1 * f64::from(i), 0.1 * j)).collect::<Vec<_>>();
         let points = [0.0, 1.0, 2.0, 3.0].map(|j| format!("[{}]", row(j).join(", "))).join(", ");
-        format!("[[object]]\nname = \"{name}\"\ntype = \"bezier\"\nmaterial = \"wall\"\npatches = [[{points}]]\n")
+        format!("[[object]]\nname = \"{name}\"\ntype = \"bezier\"\nmaterial = \"grey\"\npatches = [[{points}]]\n")
     };
     let text = format!(
-        "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 50\n[film]\nwidth = 128\nheight = 128
-        [[material]]\nname = \"wall\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
-        [[object]]\nname = \"room\"\ntype = \"sphere\"\ncenter = [0, 0, 2]\nradius = 5\nmaterial = \"wall\"
+        "{HEAD}[film]\nwidth = 128\nheight = 128
+        [[object]]\nname = \"room\"\ntype = \"sphere\"\ncenter = [0, 0, 2]\nradius = 5\nmaterial = \"grey\"
         {}{}[[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 2]\nintensity = [1, 2, 3]\n",
         patch("outside", 10.0),
         patch("inside", 0.2),
@@ -130,7 +130,10 @@ fn blurred_caustics_on_large_surfaces_begin_with_density_estimates() {
     assert!(splats(0.5, &ball(0.05)) > 10, "the ball is too small for a large disc");
 }
 
-const MIXED: &str = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 40\nheight = 30
+/// A glass ball before a wall and a floor that are partly specular, under a point light and a spherical light.
+fn mixed() -> String {
+    HEAD.to_owned()
+        + "[film]\nwidth = 40\nheight = 30
     [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5\ntint = [0.9, 1, 0.9]
     [[material]]\nname = \"wall\"\ntype = \"polished\"\nalbedo = [0.5, 0.4, 0.3]\nreflectance = [0.2, 0.2, 0.2]
     [[material]]\nname = \"shiny\"\ntype = \"phong\"\nalbedo = [0.5, 0.4, 0.3]\nspecular = [0.3, 0.3, 0.3]\nexponent = 30
@@ -138,31 +141,36 @@ const MIXED: &str = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y =
     [[object]]\nname = \"back\"\ntype = \"quad\"\ncorner = [-2,-1,-1]\nedge_u = [4,0,0]\nedge_v = [0,3,0]\nmaterial = \"wall\"
     [[object]]\nname = \"floor\"\ntype = \"plane\"\npoint = [0,-1,0]\nnormal = [0,1,0]\nmaterial = \"shiny\"
     [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [1, 1.5, 1]\nintensity = [2, 2, 2]
-    [[light]]\nname = \"disc\"\ntype = \"sphere\"\ncenter = [-1, 1.5, 1]\nradius = 0.2\nradiance = [5, 5, 5]\n";
+    [[light]]\nname = \"disc\"\ntype = \"sphere\"\ncenter = [-1, 1.5, 1]\nradius = 0.2\nradiance = [5, 5, 5]\n"
+}
 
 /// Ten iterations: the last two with radii that the eight before asked for.
 #[test]
 fn one_thread_and_many_give_the_same_bits() {
     let with_threads = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| session(MIXED, 10).film().image())
+        pool.install(|| session(&mixed(), 10).film().image())
     };
     assert_eq!(with_threads(1), with_threads(3));
 }
 
 #[test]
 fn a_cancelled_iteration_leaves_the_film_unchanged() {
-    let mut session = session(MIXED, 2);
+    let mut session = session(&mixed(), 2);
     let before: FilmSums = session.film().clone();
     assert!(session.advance(Cancel::when(&|| true)).is_none(), "the iteration was cancelled");
     assert_eq!(*session.film(), before);
     session.advance(Cancel::NEVER).expect("never cancelled");
-    assert_eq!(session.film().image(), self::session(MIXED, 3).film().image(), "the next iteration has its usual bits");
+    assert_eq!(
+        session.film().image(),
+        self::session(&mixed(), 3).film().image(),
+        "the next iteration has its usual bits"
+    );
 }
 
 #[test]
 fn a_draft_leaves_the_film_unchanged_and_resembles_the_picture() {
-    let session = session(MIXED, 32);
+    let session = session(&mixed(), 32);
     let before = session.film().clone();
     let draft = session.draft(7, 2, Cancel::NEVER).expect("never cancelled");
     assert_eq!(*session.film(), before);

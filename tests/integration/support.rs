@@ -1,5 +1,6 @@
 //! Scenes, sessions and measures that several tests use.
 
+use glam::DVec3;
 use patchlight::engine::Session;
 use patchlight::film::LinearImage;
 use patchlight::math::Rgb;
@@ -10,13 +11,14 @@ use patchlight::transport::{
 };
 use patchlight::world::{World, prepare};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 use std::path::Path;
 use std::process::{Command, Output};
 
 #[path = "../shared/scene_text.rs"]
 mod scene_text;
 
-pub(crate) use scene_text::{lamp, object, quad, sphere};
+pub(crate) use scene_text::{HEAD, lamp, object, quad, sphere};
 
 /// The text of a camera, a lamp above it and the materials white, grey, black and mirror.
 pub(crate) fn head() -> String {
@@ -31,6 +33,33 @@ pub(crate) fn ball(name: &str, x: f64, radius: f64, material: &str) -> String {
 /// The text of the plane y = -1.
 pub(crate) fn floor(material: &str) -> String {
     object("floor", "plane", material, "point = [0, -1, 0]\nnormal = [0, 1, 0]")
+}
+
+/// The middle of the spot in [`spot_scene`].
+const SPOT: DVec3 = DVec3::new(2.0, 1.2, 0.0);
+
+/// The text of a square spot about (2, 1.2, 0) that looks to -x, `half` being half its side, and of a point light before its middle, `half`
+/// away. The spot's material must be diffuse with an albedo of 0.5.
+pub(crate) fn spot_scene(half: f64, material: &str) -> String {
+    let side = 2.0 * half;
+    let corner = SPOT + DVec3::new(0.0, -half, half);
+    quad("spot", [corner.to_array(), [0.0, 0.0, -side], [0.0, side, 0.0]], material)
+        + &lamp([SPOT.x - half, SPOT.y, SPOT.z])
+}
+
+/// Radiance that a point of the plane y = 0 scatters from the spot of [`spot_scene`]: the sum over `n` x `n` cells of the spot.
+/// `scattering` returns the scattering function at the point for light from a position on the spot; 0 where an object hides it.
+pub(crate) fn spot_radiance(half: f64, n: u32, point: DVec3, scattering: impl Fn(DVec3) -> f64) -> f64 {
+    let offset = |k: u32| half * (f64::from(2 * k + 1) / f64::from(n) - 1.0);
+    let from_cell = |k: u32| {
+        let spot = SPOT + DVec3::new(0.0, offset(k / n), offset(k % n));
+        let to_lamp = SPOT - half * DVec3::X - spot;
+        let to_spot = spot - point;
+        let irradiance = -to_lamp.x / to_lamp.length().powi(3);
+        let geometry = to_spot.x * to_spot.y / to_spot.length_squared().powi(2);
+        0.5 / PI * irradiance * geometry * scattering(spot)
+    };
+    (2.0 * half / f64::from(n)).powi(2) * (0..n * n).map(from_cell).sum::<f64>()
 }
 
 /// The scene of a text without its `version`.
