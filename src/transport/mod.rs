@@ -1,19 +1,18 @@
 //! Light transport: scattering at surfaces, the plan of what a scene needs, and the passes of an iteration.
 //!
-//! Every path of light belongs to exactly one component, by its vertices from the light to the camera (L light,
-//! S mirror or glass, D the last diffuse or glossy surface, G a Phong lobe through which the camera sees, E eye):
+//! The vertices of a path of light tell its [`Component`], from the light to the camera: L light, S mirror or glass, D the last diffuse
+//! or glossy surface, G a Phong lobe through which the camera sees, E eye.
 //!
-//! | component | paths | found by |
-//! |---|---|---|
-//! | emission | `L S* E` | [`camera_pass`] |
-//! | direct light | `L D S* E` | [`camera_pass`], next event estimation |
-//! | visible caustics | `L S+ D E` | [`caustic_photon_pass`]: splats where the caustic is sharp, else density estimate |
-//! | caustics in mirrors and glass | `L S+ D S+ E` | [`caustic_photon_pass`], density estimate |
-//! | interreflection | `L .. D .. D S* E` | [`global_photon_pass`], density estimate |
-//! | light in gloss | `L .. D S* G S* E` | [`camera_pass`], and photons with the MIS weights of [`GlossyMis`] |
+//! | paths | vertices | component | found by |
+//! |---|---|---|---|
+//! | emission | `L S* E` | direct | [`camera_pass`] |
+//! | direct light | `L D S* E` | direct | [`camera_pass`], next event estimation |
+//! | visible caustics | `L S+ D E` | caustics | [`caustic_photon_pass`]: splats where the caustic is sharp, else density estimate |
+//! | caustics in mirrors and glass | `L S+ D S+ E` | caustics | [`caustic_photon_pass`], density estimate |
+//! | interreflection | `L .. D .. D S* E` | interreflection | [`global_photon_pass`], density estimate |
+//! | light in gloss | `L .. D S* G S* E` | as without the lobe | [`camera_pass`], and photons with the MIS weights of [`GlossyMis`] |
 //!
-//! Light that a Phong lobe shows belongs to the component that it would without the lobe; photons in the lobe belong to
-//! interreflection.
+//! Photons in a Phong lobe belong to interreflection, with the share of light that their MIS weights give them.
 //!
 //! A pass is a function of the world, the plan, the seed and the number of the iteration ([`PassInput`]), and returns owned data.
 //! `docs/method.md` holds the equations. The folders are in the order in which light meets them; each uses only folders above it:

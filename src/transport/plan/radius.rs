@@ -1,9 +1,9 @@
 //! The radius of the density estimate at a point in an iteration.
 //!
-//! `r_i(x) = min(min(R(x) max(s_i, 1), L(x)) min(s_i, 1), C(x))`: the radius `R(x)` after one full iteration, the factor `s_i` of the
-//! schedule or, once measured, of the bandwidth at the pixel, and the greatest radius `L(x)` that the surface and the world allow. `L(x)`
-//! applies before the radius shrinks, so that it shrinks everywhere: otherwise bias would stay. `C(x)` limits wide discs of caustics near
-//! other objects, to no less than the radius of sharp caustics; a radius that has shrunk below it goes on shrinking.
+//! `r_i(x) = min(min(R(x) max(s_i, 1), r_max(x)) min(s_i, 1), r_near(x))`: the radius `R(x)` after one full iteration, the factor `s_i` of
+//! the schedule or, once measured, of the bandwidth at the pixel, and the greatest radius `r_max(x)` that the surface and the world allow.
+//! `r_max(x)` applies before the radius shrinks, so that it shrinks everywhere: otherwise bias would stay. `r_near(x)` limits wide discs of
+//! caustics near other objects, to no less than the radius of sharp caustics; a radius that has shrunk below it goes on shrinking.
 
 use super::radii::Radii;
 use super::render_plan::Plan;
