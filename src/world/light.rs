@@ -49,7 +49,7 @@ impl Light {
     }
 
     /// The radius of a ball around the center that holds the light, in scene units.
-    pub fn reach(&self) -> f64 {
+    pub fn bounding_radius(&self) -> f64 {
         match self {
             Self::Point { .. } => 0.0,
             Self::Sphere { sphere, .. } => sphere.radius,

@@ -16,12 +16,12 @@ pub(in crate::transport) const WIDER: f64 = 1.5;
 /// Measured: with 0.25 and with 1 the error of boxes with and without mirrors and glass is greater or takes more time.
 const EVENNESS: f64 = 0.5;
 /// The squared bias is averaged over a square of this many cells to each side: noise hides it on single cells.
-const SIGNAL_REACH: usize = 2;
+const SIGNAL_CELLS: usize = 2;
 /// Radii are smoothed over a square of this many cells to each side.
-const RADIUS_REACH: usize = 1;
+const RADIUS_CELLS: usize = 1;
 /// Discs count as large only where they are large in this many cells to each side: beside a sharp edge they are not trusted.
 /// Measured: otherwise a mirror's and a glass ball's caustics have 1.2 to 2.6 times the error at their edges.
-const TRUST_REACH: usize = 3;
+const TRUST_CELLS: usize = 3;
 /// The least and the greatest factor of one refinement; the next refinement corrects a wrong one.
 const STEP: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
@@ -167,7 +167,7 @@ impl Bandwidth {
         let of =
             |kind| best_factors(cells, &differences.maps[kind], most_growth(kind), total, |c| measured_at(kind, c));
         let factors = PerMap::in_parallel(&of);
-        let least_caustic = cells.least(&factors[MapKind::Caustic], TRUST_REACH);
+        let least_caustic = cells.least(&factors[MapKind::Caustic], TRUST_CELLS);
         Self { cells, factors, least_caustic }
     }
 
@@ -206,7 +206,7 @@ impl Bandwidth {
 
 /// The factor of each cell for a mean of `total` full iterations, at most `most`.
 fn best_factors(cells: Cells, sums: &[Sums], most: f64, total: f64, measured_at: impl Fn(usize) -> f64) -> Vec<f32> {
-    let blurred = |of: fn(&Sums) -> f64| cells.blurred(&sums.iter().map(of).collect::<Vec<f64>>(), SIGNAL_REACH);
+    let blurred = |of: fn(&Sums) -> f64| cells.blurred(&sums.iter().map(of).collect::<Vec<f64>>(), SIGNAL_CELLS);
     let (signals, variances) = (blurred(Sums::squared_expectation), blurred(Sums::noise));
     // Differences that vary more than shot noise vary with the position in the pixel: the light is sharp there. Twice the shot noise may
     // still be chance, because one path may leave several photons.
@@ -228,7 +228,7 @@ fn best_factors(cells: Cells, sums: &[Sums], most: f64, total: f64, measured_at:
                 .ln()
         })
         .collect();
-    cells.blurred(&logarithms, RADIUS_REACH).into_iter().map(|x| x.exp() as f32).collect()
+    cells.blurred(&logarithms, RADIUS_CELLS).into_iter().map(|x| x.exp() as f32).collect()
 }
 
 #[cfg(test)]

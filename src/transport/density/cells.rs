@@ -42,18 +42,18 @@ impl Cells {
         (y + turn / columns) * self.width + x + turn % columns
     }
 
-    /// Filters the values of all cells with a square window of `2 reach + 1` cells a side, clipped to the film: `of` reduces each row of
+    /// Filters the values of all cells with a square window of `2 half_width + 1` cells a side, clipped to the film: `of` reduces each row of
     /// the window, then the results of the rows.
     fn filtered<T: Copy>(
         &self,
         values: &[T],
-        reach: usize,
+        half_width: usize,
         of: impl Fn(&mut dyn ExactSizeIterator<Item = T>) -> T,
     ) -> Vec<T> {
         let columns = self.columns as usize;
         let along = |values: &[T], stride: usize, len: usize, index: usize| {
             let at = index / stride % len;
-            let near = at.saturating_sub(reach)..(at + reach + 1).min(len);
+            let near = at.saturating_sub(half_width)..(at + half_width + 1).min(len);
             let start = index - at * stride;
             of(&mut near.map(|k| values[start + k * stride]))
         };
@@ -62,15 +62,15 @@ impl Cells {
     }
 
     /// The mean over the window around each cell.
-    pub(super) fn blurred(&self, values: &[f64], reach: usize) -> Vec<f64> {
-        self.filtered(values, reach, |near| {
+    pub(super) fn blurred(&self, values: &[f64], half_width: usize) -> Vec<f64> {
+        self.filtered(values, half_width, |near| {
             let count = near.len() as f64;
             near.sum::<f64>() / count
         })
     }
 
     /// The least value in the window around each cell.
-    pub(super) fn least(&self, values: &[f32], reach: usize) -> Vec<f32> {
-        self.filtered(values, reach, |near| near.fold(f32::INFINITY, f32::min))
+    pub(super) fn least(&self, values: &[f32], half_width: usize) -> Vec<f32> {
+        self.filtered(values, half_width, |near| near.fold(f32::INFINITY, f32::min))
     }
 }

@@ -30,7 +30,7 @@ const STEP: f64 = 0.125;
 const MOST_STEPS: usize = 100;
 /// The standard deviation is taken over a square of this many pixels to each side: an edge between two pixels may run through either
 /// of them, where few samples miss it.
-const REACH: usize = 1;
+const NEIGHBOUR_PIXELS: usize = 1;
 
 /// Sums over the camera samples of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
@@ -103,8 +103,8 @@ impl FilmSamples {
     fn around(&self, index: usize) -> impl Iterator<Item = usize> {
         let (width, height) = (self.width, self.pixels.len() / self.width);
         let (x, y) = (index % width, index / width);
-        let columns = x.saturating_sub(REACH)..(x + REACH + 1).min(width);
-        let rows = y.saturating_sub(REACH)..(y + REACH + 1).min(height);
+        let columns = x.saturating_sub(NEIGHBOUR_PIXELS)..(x + NEIGHBOUR_PIXELS + 1).min(width);
+        let rows = y.saturating_sub(NEIGHBOUR_PIXELS)..(y + NEIGHBOUR_PIXELS + 1).min(height);
         rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
     }
 

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 /// Directions of the rays that find the polygon. If the rays in every other direction meet nothing, the rest are not traced.
 const DIRECTIONS: usize = 16;
-/// Height of the rays above the plane, as a fraction of the reach: low enough to meet an object that touches the plane in one point
+/// Height of the rays above the plane, as a fraction of the greatest distance: low enough to meet an object that touches the plane in one point
 /// close to that point.
 const HEIGHT: f64 = 0.01;
 /// Length of the rays, as a fraction of the distance to the edge: a longer ray could hit a wall along the edge, which hides nothing.
@@ -37,13 +37,13 @@ pub(in crate::transport) struct VisibilityQuery<'a> {
     /// Unit normal on the visible side.
     pub(in crate::transport) normal: DVec3,
     /// Radius of the disc that the polygon must cover, scene units.
-    pub(in crate::transport) reach: f64,
+    pub(in crate::transport) max_distance: f64,
     /// [`diamond_angle`] of the first direction, random so that the corners do not always lie in the same directions.
     pub(in crate::transport) turn: f64,
 }
 
 impl VisibilityQuery<'_> {
-    /// The polygon and the number of rays traced; no polygon if nothing hides the primitive within the reach, or if the primitive is
+    /// The polygon and the number of rays traced; no polygon if nothing hides the primitive within `max_distance`, or if the primitive is
     /// curved.
     pub(in crate::transport) fn polygon(&self) -> (Option<VisibilityPolygon>, u64) {
         let position = match self.primitive {
@@ -52,7 +52,7 @@ impl VisibilityQuery<'_> {
             Primitive::Sphere(_) | Primitive::Patch(_) => return (None, 0),
         };
         let (e0, e1) = self.normal.any_orthonormal_pair();
-        let start = position + HEIGHT * self.reach * self.normal;
+        let start = position + HEIGHT * self.max_distance * self.normal;
         let mut nearest = f64::INFINITY;
         let mut corners = [DVec2::ZERO; DIRECTIONS];
         let mut trace_along = |k: usize| {
@@ -62,9 +62,9 @@ impl VisibilityQuery<'_> {
                 Primitive::Quad(quad) => quad.distance_to_edge(self.uv, direction),
                 _ => f64::INFINITY,
             };
-            // The polygon's sides, not only its corners, must stay beyond the reach.
-            let free = to_edge.min(2.0 * self.reach);
-            let ray = Ray { t_max: WHOLE * free.min(self.reach), ..Ray::new(start, direction) };
+            // The polygon's sides, not only its corners, must stay beyond `max_distance`.
+            let free = to_edge.min(2.0 * self.max_distance);
+            let ray = Ray { t_max: WHOLE * free.min(self.max_distance), ..Ray::new(start, direction) };
             let hit = self.world.aggregate.closest_hit(&ray).map_or(f64::INFINITY, |hit| hit.t);
             nearest = hit.min(nearest);
             corners[k] = hit.min(free) * unit;
@@ -145,10 +145,10 @@ mod tests {
     }
 
     /// From the point of the floor at x, z = 0.
-    fn look(world: &World, x: f64, reach: f64) -> Option<VisibilityPolygon> {
+    fn look(world: &World, x: f64, max_distance: f64) -> Option<VisibilityPolygon> {
         let primitive = &world.aggregate.primitives()[0];
         let uv = DVec2::new(0.5 * (x + 1.0), 0.5);
-        VisibilityQuery { world, primitive, uv, normal: DVec3::Y, reach, turn: 0.3 }.polygon().0
+        VisibilityQuery { world, primitive, uv, normal: DVec3::Y, max_distance, turn: 0.3 }.polygon().0
     }
 
     #[test]

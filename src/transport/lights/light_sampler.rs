@@ -27,7 +27,7 @@ struct Columns {
     /// Unit normal of a quad; 0 for lights that shine to all sides.
     front: [Vec<f32>; 3],
     /// Radius of a ball about the center that holds the light.
-    reach: Vec<f32>,
+    bounding_radius: Vec<f32>,
     /// Greatest intensity over the directions, W/sr.
     intensity: Vec<f32>,
 }
@@ -44,7 +44,7 @@ impl LightSampler {
             let front = if let Light::Quad { quad, .. } = light { quad.normal() } else { DVec3::ZERO };
             push(&mut columns.center, (light.center() - center).as_vec3());
             push(&mut columns.front, front.as_vec3());
-            columns.reach.push(light.reach() as f32);
+            columns.bounding_radius.push(light.bounding_radius() as f32);
             columns.intensity.push(greatest_intensity(light) as f32);
         }
         Self { columns, center }
@@ -133,19 +133,19 @@ simd_dispatch! {
         let count = contributions.len();
         let [x, y, z] = lights.center.each_ref().map(|column| &column[..count]);
         let [front_x, front_y, front_z] = lights.front.each_ref().map(|column| &column[..count]);
-        let (reach, intensity) = (&lights.reach[..count], &lights.intensity[..count]);
+        let (bounding_radius, intensity) = (&lights.bounding_radius[..count], &lights.intensity[..count]);
         for k in 0..count {
             let offset = [x[k] - position.x, y[k] - position.y, z[k] - position.z];
             let squared = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
             let squared = squared.max(f32::MIN_POSITIVE);
             let distance = squared.sqrt();
             let height = offset[0] * n_side.x + offset[1] * n_side.y + offset[2] * n_side.z;
-            let highest = (height + reach[k]) / distance;
+            let highest = (height + bounding_radius[k]) / distance;
             let along_front = offset[0] * front_x[k] + offset[1] * front_y[k] + offset[2] * front_z[k];
             let is_quad = front_x[k] * front_x[k] + front_y[k] * front_y[k] + front_z[k] * front_z[k] > 0.5;
             let cos_of_quad = (-along_front / distance).clamp(LEAST_COS_OF_QUAD, 1.0);
             let towards_point = if is_quad { intensity[k] * cos_of_quad } else { intensity[k] };
-            let contribution = towards_point * highest.clamp(LEAST_COS, 1.0) / squared.max(0.25 * reach[k] * reach[k]);
+            let contribution = towards_point * highest.clamp(LEAST_COS, 1.0) / squared.max(0.25 * bounding_radius[k] * bounding_radius[k]);
             let is_lit = (highest > -ROUNDING) & (along_front <= ROUNDING * distance);
             contributions[k] = if is_lit { contribution } else { 0.0 };
         }

@@ -233,15 +233,14 @@ impl Gatherer<'_> {
             || self.input.plan.gathers_visible_caustics(primitive(), point.pixel, self.input.iteration)
     }
 
-    /// The region of its surface that a point sees within the reach (scene units); `None` where no object stands on the surface within the
-    /// reach.
+    /// The region of its surface that a point sees within `max_distance` (scene units); `None` where no object stands on the surface so near.
     fn visibility_polygon(
         &self,
         point: &VisiblePoint,
-        reach: f64,
+        max_distance: f64,
         counters: &mut Counters,
     ) -> Option<VisibilityPolygon> {
-        if point.clearance.standing >= reach {
+        if point.clearance.standing >= max_distance {
             return None;
         }
         let mut sampler = self.input.sampler(Stream::VisibilityPolygon, u64::from(point.pixel), self.input.iteration);
@@ -250,7 +249,7 @@ impl Gatherer<'_> {
             primitive: &self.input.world.aggregate.primitives()[point.primitive as usize],
             uv: point.uv,
             normal: point.n_side.as_dvec3(),
-            reach,
+            max_distance,
             turn: 4.0 * sampler.next_1d(),
         }
         .polygon();

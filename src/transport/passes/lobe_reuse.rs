@@ -23,8 +23,8 @@ pub struct LobeSample {
     /// First tag of the photons on the same surface and side.
     tag: u32,
     /// Greatest distance of a neighbour, scene units.
-    reach: f32,
-    /// `reach` in pixels, for a surface that faces the camera.
+    reuse_distance: f32,
+    /// `reuse_distance` in pixels, for a surface that faces the camera.
     window: u32,
 }
 
@@ -49,14 +49,14 @@ fn lobe_sample(input: &PassInput, point: &VisiblePoint) -> Option<LobeSample> {
         return None;
     }
     let footprint = f64::from(point.footprint);
-    let reach = input.plan.lobe_reach(footprint, point.clearance, exponent, input.iteration);
-    let window = (reach / footprint) as u32;
+    let reuse_distance = input.plan.reuse_distance(footprint, point.clearance, exponent, input.iteration);
+    let window = (reuse_distance / footprint) as u32;
     (window > 0).then_some(LobeSample {
         radiance: Rgb::ZERO,
         position: point.position,
         normal: point.n_side,
         tag: point.tag,
-        reach: reach as f32,
+        reuse_distance: reuse_distance as f32,
         window,
     })
 }
@@ -95,7 +95,7 @@ impl LobeSample {
 
     fn is_neighbour(&self, other: &Self) -> bool {
         self.tag == other.tag
-            && self.position.distance_squared(other.position) <= self.reach * self.reach
+            && self.position.distance_squared(other.position) <= self.reuse_distance * self.reuse_distance
             && self.normal.dot(other.normal) >= LEAST_COS_OF_NEIGHBOURS
     }
 }
@@ -105,9 +105,16 @@ mod tests {
     use super::*;
 
     /// In a row of pixels, a unit from each other on a floor.
-    fn lobe(x: f32, tag: u32, reach: f32, found: f32) -> Option<LobeSample> {
+    fn lobe(x: f32, tag: u32, reuse_distance: f32, found: f32) -> Option<LobeSample> {
         let position = Vec3::new(x, 0.0, 0.0);
-        Some(LobeSample { radiance: Rgb::splat(found), position, normal: Vec3::Y, tag, reach, window: reach as u32 })
+        Some(LobeSample {
+            radiance: Rgb::splat(found),
+            position,
+            normal: Vec3::Y,
+            tag,
+            reuse_distance,
+            window: reuse_distance as u32,
+        })
     }
 
     fn reused<const N: usize>(lobes: [Option<LobeSample>; N], width: u32) -> [f32; N] {
@@ -119,7 +126,7 @@ mod tests {
     #[test]
     fn neighbours_take_the_mean() {
         let row = [lobe(0.0, 0, 1.0, 3.0), lobe(1.0, 0, 1.0, 6.0), lobe(2.0, 0, 1.0, 0.0), lobe(3.0, 0, 0.0, 8.0)];
-        assert_eq!(reused(row, 4), [4.5, 3.0, 14.0 / 3.0, 8.0], "each within its own reach");
+        assert_eq!(reused(row, 4), [4.5, 3.0, 14.0 / 3.0, 8.0], "each within its own distance");
     }
 
     #[test]
@@ -129,7 +136,7 @@ mod tests {
         let on_a_bend =
             lobe(1.0, 0, 1.0, 9.0).map(|lobe| LobeSample { normal: Vec3::new(0.1, 1.0, 0.0).normalize(), ..lobe });
         assert_eq!(reused([lobe(0.0, 0, 1.0, 3.0), on_a_bend], 2), [3.0, 9.0]);
-        // A steep surface: the next pixel in the window shows a point beyond the reach.
+        // A steep surface: the next pixel in the window shows a point beyond the distance.
         assert_eq!(reused([lobe(0.0, 0, 1.0, 3.0), lobe(1.5, 0, 1.0, 6.0)], 2), [3.0, 6.0]);
     }
 

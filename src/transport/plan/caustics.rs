@@ -55,7 +55,7 @@ pub(super) fn plan(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
 /// Whether any light is so small that its caustics may be sharper than the discs.
 fn may_be_sharp(world: &World) -> bool {
     let distance = world.camera.position.distance(world.center).max(world.radius);
-    world.lights.iter().any(|light| light.reach() < CAUSTIC_RADIUS * world.camera.footprint(distance))
+    world.lights.iter().any(|light| light.bounding_radius() < CAUSTIC_RADIUS * world.camera.footprint(distance))
 }
 
 fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {

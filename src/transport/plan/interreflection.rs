@@ -64,9 +64,10 @@ fn may_light_itself(world: &World, primitive: u32) -> bool {
     let sent_back = world.max_bounces >= 3 && (0..world.surfaces.len() as u32).any(|p| world.is_specular(p));
     let is_convex = match &world.aggregate.primitives()[primitive as usize] {
         Primitive::Quad(_) | Primitive::Plane(_) => true,
-        Primitive::Sphere(sphere) => {
-            world.lights.iter().all(|light| light.center().distance(sphere.center) > sphere.radius + light.reach())
-        }
+        Primitive::Sphere(sphere) => world
+            .lights
+            .iter()
+            .all(|light| light.center().distance(sphere.center) > sphere.radius + light.bounding_radius()),
         Primitive::Patch(_) => false,
     };
     sent_back || !is_convex

@@ -22,7 +22,7 @@ const INDIRECT_CAUSTIC_RADIUS: f64 = 6.0;
 pub(super) const GLOSSY_RADIUS: f64 = 6.0;
 /// Distance up to which neighbours reuse each other's lobe samples, pixel footprints. Measured: with 3 and 6 the error is 1.09 and
 /// 0.96 times as great in a room of gloss.
-const LOBE_REACH: f64 = 4.0;
+const REUSE_DISTANCE: f64 = 4.0;
 /// Greatest radius, in radii of the world: a wider disc would mix the light of different regions of the scene.
 const LARGEST_RADIUS: f64 = 0.15;
 
@@ -31,7 +31,7 @@ pub(super) const DRAFT_RADIUS: f64 = 16.0;
 /// Radius for indirect caustics and Phong lobes in a draft, over that for interreflection: they are sharper.
 const DRAFT_GLOSSY: f64 = 0.75;
 /// Distance up to which neighbours in a draft reuse each other's lobe samples, pixel footprints: adjacent pixels only.
-const DRAFT_LOBE_REACH: f64 = 1.5;
+const DRAFT_REUSE_DISTANCE: f64 = 1.5;
 /// Greatest radius of a draft, in radii of the world: a draft has fewer photons and may blur more.
 const DRAFT_LARGEST_RADIUS: f64 = 0.2;
 
@@ -53,7 +53,7 @@ pub struct Radii {
     /// For photons in Phong lobes.
     pub glossy: f64,
     /// Distance up to which neighbours reuse each other's lobe samples.
-    pub lobe_reach: f64,
+    pub reuse_distance: f64,
     /// Greatest radius, in radii of the world.
     pub largest: f64,
 }
@@ -61,8 +61,8 @@ pub struct Radii {
 impl Radii {
     /// The radii for the lights of a world.
     pub(super) fn new(world: &World) -> Self {
-        let is_large = |reach: f64| reach >= LARGE_LIGHT * world.radius;
-        let are_large = world.lights.iter().all(|light| is_large(light.reach()));
+        let least = LARGE_LIGHT * world.radius;
+        let are_large = world.lights.iter().all(|light| light.bounding_radius() >= least);
         Self {
             caustic: if are_large { SMOOTH_CAUSTIC_RADIUS } else { CAUSTIC_RADIUS },
             least_caustic: CAUSTIC_RADIUS,
@@ -71,7 +71,7 @@ impl Radii {
             least_standing: LEAST_STANDING_RADIUS,
             indirect_caustic: INDIRECT_CAUSTIC_RADIUS,
             glossy: GLOSSY_RADIUS,
-            lobe_reach: LOBE_REACH,
+            reuse_distance: REUSE_DISTANCE,
             largest: LARGEST_RADIUS,
         }
     }
@@ -86,7 +86,7 @@ impl Radii {
             least_standing: global,
             indirect_caustic: DRAFT_GLOSSY * global,
             glossy: DRAFT_GLOSSY * global,
-            lobe_reach: DRAFT_LOBE_REACH,
+            reuse_distance: DRAFT_REUSE_DISTANCE,
             largest: DRAFT_LARGEST_RADIUS,
         }
     }

@@ -120,14 +120,14 @@ impl Plan {
 
     /// The distance up to which neighbours reuse samples of a Phong lobe with this exponent, scene units: the lobe blurs even the
     /// nearest object at least as far.
-    pub(in crate::transport) fn lobe_reach(
+    pub(in crate::transport) fn reuse_distance(
         &self,
         footprint: f64,
         clearance: Clearance,
         exponent: f64,
         iteration: u64,
     ) -> f64 {
-        (self.radii.lobe_reach * footprint).min(lobe_width(exponent) * clearance.any) * self.shrink(iteration)
+        (self.radii.reuse_distance * footprint).min(lobe_width(exponent) * clearance.any) * self.shrink(iteration)
     }
 
     /// The mean radius over the film in an iteration, scene units, at this distance from the camera and far from other objects: for
