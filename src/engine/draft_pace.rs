@@ -2,13 +2,17 @@
 
 /// Time that the first draft should take, seconds: a frame of 30 Hz, less preparation and display.
 const DRAFT_SECONDS: f64 = 0.022;
-/// Coarseness of the first draft before any draft was timed.
+/// Coarseness of the first draft before any draft was timed: a sixteenth of the pixels. A lower value could freeze the first picture on a
+/// slow machine, a higher one makes the first picture needlessly coarse; the time of each draft corrects it.
 const FIRST_COARSENESS: f64 = 4.0;
-/// Greatest coarseness of a first draft.
+/// Greatest coarseness of a first draft: coarser ones, some 30 pixels wide, would show no objects; a lower limit makes slow machines stall
+/// during a drag.
 const COARSEST_DRAFT: f64 = 16.0;
-/// Most time of a finer draft, seconds, except for the last one, which has all pixels.
+/// Most time of a finer draft, seconds, except for the last one, which has all pixels. A longer draft adds to the wait for all pixels; with a
+/// shorter limit no draft comes between the first and the last one.
 const LONGEST_DRAFT_SECONDS: f64 = 0.12;
-/// Time of a draft with all pixels, seconds, from which on a coarser draft comes before it.
+/// Time of a draft with all pixels, seconds, from which on a coarser draft comes before it: shorter waits need none, in longer ones the
+/// first draft stays visible too long.
 const LONGEST_WAIT: f64 = 0.5;
 /// Time per pixel of a draft with all pixels over that of a coarser draft: in fine drafts, fewer pixels gather light.
 const ALL_PIXELS_TIME: f64 = 0.3;

@@ -17,7 +17,8 @@ pub(in crate::transport) const WIDER: f64 = 1.5;
 const EVENNESS: f64 = 0.5;
 /// The squared bias is averaged over a square of this many cells to each side: noise hides it on single cells.
 const SIGNAL_CELLS: usize = 2;
-/// Radii are smoothed over a square of this many cells to each side.
+/// Radii are smoothed over a square of this many cells to each side. Without it the noise of a cell shows in its radius; a larger square
+/// widens discs at sharp edges.
 const RADIUS_CELLS: usize = 1;
 /// Discs count as large only where they are large in this many cells to each side: beside a sharp edge they are not trusted.
 /// Measured: otherwise a mirror's and a glass ball's caustics have 1.2 to 2.6 times the error at their edges.
@@ -25,12 +26,16 @@ const TRUST_CELLS: usize = 3;
 /// The least and the greatest factor of one refinement; the next refinement corrects a wrong one.
 const STEP: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
+/// Greatest growth of discs for caustics, to 6 pixel footprints, for indirect caustics to 18. Wider discs reach over more objects, whose
+/// clearance and visibility polygons take rays; smaller ones leave noise in smooth caustics.
+const MOST_CAUSTIC_GROWTH: f64 = 3.0;
+
 /// Greatest radius of a map's discs over their radius after one full iteration. Caustics begin with small discs, because they may be
-/// sharp; most of them are not.
+/// sharp; most of them are not. The other maps begin with discs as wide as the distances to other objects allow, so these do not grow.
 pub(in crate::transport) fn most_growth(kind: MapKind) -> f64 {
     match kind {
         MapKind::Global | MapKind::Glossy => 1.0,
-        MapKind::Caustic | MapKind::IndirectCaustic => 3.0,
+        MapKind::Caustic | MapKind::IndirectCaustic => MOST_CAUSTIC_GROWTH,
     }
 }
 
@@ -239,7 +244,7 @@ mod tests {
     const SIZE: u32 = 40;
     const KIND: MapKind = MapKind::Global;
 
-    /// BandwidthDifferences of `n` iterations with this mean and standard deviation.
+    /// Bandwidth differences that `n` iterations measured, with this mean and standard deviation in every cell.
     fn measured(n: u64, mean: f64, deviation: f64) -> BandwidthDifferences {
         let mut differences = BandwidthDifferences::new(SIZE, SIZE);
         for iteration in 8..8 + n {
@@ -303,7 +308,7 @@ mod tests {
 
     /// A bright line of one pixel: its neighbours are brighter in wider discs, it is darker.
     #[test]
-    fn what_is_sharp_shrinks_discs_and_is_not_trusted_around() {
+    fn sharp_light_shrinks_discs_and_the_trust_around_them() {
         let mut differences = BandwidthDifferences::new(SIZE, SIZE);
         let difference = |pixel: u32| match pixel % SIZE {
             20 => -4.0,
@@ -327,7 +332,7 @@ mod tests {
 
     /// Differences between positions in a pixel are not noise: a wider disc does not reduce them.
     #[test]
-    fn what_differs_by_places_in_the_pixel_shrinks_discs_of_caustics() {
+    fn light_that_varies_within_a_pixel_shrinks_discs_of_caustics() {
         let mut differences = measured(16, 0.0, 1.0);
         let quiet = Bandwidth::first(&differences, 16.0, 0.8).at(MapKind::Caustic, 0);
         for sums in &mut differences.maps[MapKind::Caustic] {

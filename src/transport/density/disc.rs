@@ -149,7 +149,7 @@ mod tests {
 
     /// The kernel `1 - d^2 / r^2` has the integral `pi r^2 / 2`; of a disc about an edge the surface fills a half, about a corner a fourth.
     #[test]
-    fn the_integral_covers_what_the_surface_fills() {
+    fn the_integral_covers_the_filled_disc() {
         let (world, whole) = (floor(), FRAC_PI_2 * 0.25);
         for (u, v, fraction) in [(0.5, 0.5, 1.0), (0.0, 0.5, 0.5), (0.5, 1.0, 0.5), (1.0, 0.0, 0.25), (0.26, 0.26, 1.0)]
         {

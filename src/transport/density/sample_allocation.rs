@@ -13,7 +13,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Most samples of a pixel in an iteration; a power of two.
+/// Most samples of a pixel in an iteration; a power of two. With more, a few noisy pixels take most of the samples of the film and the time
+/// of their band; with fewer, small lamps and their reflections stay noisy when the rest of the film is smooth.
 pub(in crate::transport) const MOST_SAMPLES: usize = 64;
 /// Least samples of a pixel in an iteration where it shows different surfaces or a texture: density estimates need them, too.
 const SAMPLES_OF_HETEROGENEOUS: usize = 4;
@@ -246,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn where_they_differ_they_are_many_and_beside_it_too() {
+    fn samples_that_differ_are_many_also_beside_their_pixel() {
         let at = 5 * SIZE + 5;
         let counts = self::counts(&film(|pixel| [if pixel == at { 40.0 } else { 0.5 }, 0.5], |_| false));
         assert!(counts[at as usize] >= 8, "{counts:?}");
@@ -257,7 +258,7 @@ mod tests {
         assert!(between[7] >= 4 && between[8] >= 4 && between[6] == 1 && between[9] == 1, "{between:?}");
     }
 
-    /// Else few hits would make for much weight, and a pixel's mean would be too dark.
+    /// A weight by a pixel's own samples would be high where few of them meet a lamp, and the mean of the pixel too dark.
     #[test]
     fn weights_do_not_depend_on_the_pixels_own_samples() {
         let at = 5 * SIZE + 5;
@@ -273,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn where_all_pixels_around_get_more_samples_they_weigh_more() {
+    fn samples_weigh_more_where_all_neighbours_get_more() {
         let best = SampleAllocation::best(4, &film(|_| [0.7; 2], |pixel| pixel % SIZE < 8), |_| 8);
         let row = 5 * SIZE;
         assert_eq!([6, 7, 8, 9].map(|x| best.weight(row + x)), [SAMPLES_OF_HETEROGENEOUS as f32, 1.0, 1.0, 1.0]);

@@ -229,7 +229,7 @@ mod tests {
 
     /// A square of half side a at distance h has the solid angle `4 asin(a^2 / (a^2 + h^2))`.
     #[test]
-    fn photons_carry_what_the_mirror_catches() {
+    fn photons_carry_the_light_that_meets_the_mirror() {
         let passes = found(&lit_by_a_mirror(16), 2);
         let photons = passes.iter().flat_map(|pass| &pass.photons);
         let flux = photons.map(|photon| f64::from(photon.flux.x)).sum::<f64>() / passes.len() as f64;

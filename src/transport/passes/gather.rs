@@ -17,7 +17,8 @@ use crate::transport::plan::IterationRadii;
 use crate::transport::points::{Facet, VisiblePoint, bsdf};
 use arrayvec::ArrayVec;
 
-/// Visible points between two checks whether the pass was cancelled.
+/// Visible points between two checks whether the pass was cancelled, about a millisecond of work. Larger blocks react later to an edit and
+/// take more of the stack; smaller ones enter vector code more often.
 const POINTS_PER_BLOCK: usize = 1024;
 
 /// Light that photons bring to a visible point.
@@ -198,7 +199,7 @@ impl Gatherer<'_> {
         }
     }
 
-    /// The density estimates that a point needs; with `compares` also those whose light the picture does not show.
+    /// The density estimates that a point needs; with `compares` also density estimates whose light the picture does not show.
     #[inline]
     fn estimates(&self, point: &VisiblePoint, compares: bool) -> ArrayVec<Estimate, 4> {
         MapKind::ALL

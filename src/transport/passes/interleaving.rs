@@ -9,6 +9,7 @@ use crate::transport::points::{LEAST_COS_OF_NEIGHBOURS, VisiblePoint};
 /// Greatest distance between a point and a neighbour that takes its irradiance, in radii of the point's disc: the blur that this adds
 /// is small beside that of the disc.
 const MAX_DISTANCE: f64 = 0.25;
+
 /// The points that gather irradiance, and the points that take it from them.
 #[derive(Debug, Default)]
 pub(super) struct Interleaving {

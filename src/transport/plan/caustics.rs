@@ -11,7 +11,8 @@ use crate::transport::lights::ProjectionMap;
 use crate::world::World;
 use std::sync::Arc;
 
-/// Photon paths for caustics in a full iteration, for each pixel.
+/// Photon paths for caustics in a full iteration, for each pixel: half as many as for interreflection, because projection maps aim all of
+/// them at mirrors and glass. More paths delay each iteration; with fewer, the camera paths take most of its time.
 const CAUSTIC_PATHS_PER_PIXEL: f64 = 2.0;
 /// Photon paths per pixel from which on splats are better than density estimates, where caustics may be sharp.
 const PHOTONS_PER_PIXEL_TO_SPLAT: f64 = 1.0;

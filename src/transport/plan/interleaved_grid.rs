@@ -5,11 +5,14 @@
 use crate::transport::pass::Rows;
 use crate::transport::points::VisiblePoint;
 
-/// Pixels along a side of a square in iterations.
+/// Pixels along a side of a square in iterations. Measured: squares of 2 save 8 to 9 % of the time of an iteration for up to 4 % more relMSE.
+/// Larger squares could save only the fourth of the gathering that is left, and would blur over more than a pixel.
 const SIDE: u32 = 2;
-/// Pixels along a side of a square in drafts.
+/// Pixels along a side of a square in drafts: with smaller squares a draft in the time of a frame has fewer pixels, larger ones show as
+/// blocks.
 const DRAFT_SIDE: u32 = 4;
-/// Most rows of a band.
+/// Most rows of a band. Taller bands hold more visible points in memory, and threads end less evenly; in lower ones fewer successive points
+/// share photons in the cache.
 const ROWS_OF_BAND: u32 = 16;
 /// Bands of a small film: enough for threads to end at about the same time.
 const BANDS: u32 = 32;

@@ -14,7 +14,8 @@ use std::ops::Range;
 /// Samples of a pixel that gather photons where the pixel shows different surfaces: one would leave jagged edges, and density
 /// estimates are most of a pixel's work.
 const SAMPLES_OF_EDGE: usize = 4;
-/// Columns of a tile; it has all rows of the pass.
+/// Columns of a tile; it has all rows of the pass. In a wider tile the photons near one row have left the cache at the next row; a narrower
+/// tile leaves more first rays over from packets, whose rays are of one row of a tile.
 const TILE: u32 = 16;
 
 /// The camera samples of an iteration for every pixel of some rows, and the visible points that they leave; `None` when
