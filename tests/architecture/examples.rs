@@ -99,6 +99,23 @@ fn rooms_keep_the_order_of_the_table_in_their_folder() {
 }
 
 #[test]
+fn files_keep_the_order_of_a_table_of_modules() {
+    let upward = |head| {
+        let folder =
+            format!("//! | {head} | holds |\n//! |---|---|\n//! | `low` | a |\n//! | `high` | b |\nmod low; mod high;");
+        let modules = read(&[
+            ("src/lib.rs", "mod f;"),
+            ("src/f/mod.rs", &folder),
+            ("src/f/low.rs", "use super::high::H;"),
+            ("src/f/high.rs", "pub struct H;"),
+        ]);
+        rules::upward(&modules, &modules.uses().0)
+    };
+    assert_eq!(upward("module"), ["src/f/low.rs -> src/f/high.rs (H)"]);
+    assert!(upward("file").is_empty(), "only folders keep the order");
+}
+
+#[test]
 fn a_circle_is_found() {
     let circles = |a, b| {
         let modules = with(a, b, "", "");

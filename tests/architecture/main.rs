@@ -1,8 +1,11 @@
 //! The architecture of the crate, checked on its source.
 //!
-//! The tables of files at the beginning of `lib.rs` and of each folder's `mod.rs` say the order: at the root a module, elsewhere a
-//! folder, uses only what stands in rows above its own; names in one row do not import each other. Files import each other in no
-//! circle. Tests and documentation may use anything.
+//! The tables at the beginning of `lib.rs` and of each folder's `mod.rs` say the order: a folder uses only modules in rows above its own,
+//! and so does a file in a table headed `module`; modules in one row do not import each other. Files import each other in no circle.
+//! Tests and documentation may use anything.
+//!
+//! An import is a path in the source. A method call names no path, so calls of methods are not seen: where files share out the inherent
+//! methods of a type, one of them may call a method of another against the order.
 //!
 //! | file | holds |
 //! |---|---|

@@ -17,6 +17,8 @@ pub(crate) struct Module {
     pub(crate) file: String,
     /// The table that begins the file: the names in the first cell of each row, from the top.
     pub(crate) table: Vec<Vec<String>>,
+    /// Whether the first cell of the table's head is `module`: then also files keep the order of the rows, not only folders.
+    pub(crate) orders_files: bool,
     /// The modules that it declares with `mod name;`.
     pub(crate) files: BTreeSet<String>,
     /// The names that it defines, modules left out.
@@ -52,16 +54,18 @@ impl Modules {
             let found = files.iter().find_map(|file| Some((file, source(file)?)));
             let (file, text) = found.ok_or_else(|| format!("there is no {}", files.join(" and no ")))?;
             let parsed = syn::parse_file(&text).map_err(|error| format!("{file}: {error}"))?;
-            modules.add(&path, file, table(&text), &parsed.items);
+            modules.add(&path, file, &text, &parsed.items);
             open.extend(modules.0[&path].files.iter().map(|name| child(&path, name)));
         }
         Ok(modules)
     }
 
-    fn add(&mut self, path: &[String], file: &str, table: Vec<Vec<String>>, items: &[Item]) {
+    /// Adds the module of this path in `file`, whose documentation begins `text`.
+    fn add(&mut self, path: &[String], file: &str, text: &str, items: &[Item]) {
         let mut module = Module {
             file: file.to_owned(),
-            table,
+            table: table(text),
+            orders_files: head(text).is_some_and(|head| head == "module"),
             files: BTreeSet::new(),
             items: HashSet::new(),
             imports: Vec::new(),
@@ -73,7 +77,7 @@ impl Modules {
                 _ if is_for_tests(attributes) => {}
                 Item::Mod(inner) => match &inner.content {
                     None => _ = module.files.insert(inner.ident.to_string()),
-                    Some((_, items)) => self.add(&child(path, &inner.ident.to_string()), file, Vec::new(), items),
+                    Some((_, items)) => self.add(&child(path, &inner.ident.to_string()), file, "", items),
                 },
                 _ => {
                     module.items.extend(name.map(Ident::to_string));
@@ -174,11 +178,20 @@ fn is_for_tests(attributes: &[Attribute]) -> bool {
 
 /// The table of files or modules in the documentation that begins a file.
 fn table(text: &str) -> Vec<Vec<String>> {
-    let rows = text.lines().map_while(|line| line.strip_prefix("//!")).map(|line| line.trim().strip_prefix("| "));
-    let cells = rows.map(|row| row?.split('|').next());
-    let is_head = |cell: &Option<&str>| cell.is_some_and(|cell| ["file", "folder", "module"].contains(&cell.trim()));
-    let rows = cells.skip_while(|cell| !is_head(cell)).skip(2).map_while(|cell| cell);
+    let rows = from_head(text).skip(2).map_while(|cell| cell);
     rows.map(|cell| cell.split(',').map(module_name).collect()).collect()
+}
+
+/// The first cell of the head of the table.
+fn head(text: &str) -> Option<&str> {
+    from_head(text).next()?
+}
+
+/// The first cell of each line of the documentation that begins a file, from the head of its table on; `None` for other lines.
+fn from_head(text: &str) -> impl Iterator<Item = Option<&str>> {
+    let rows = text.lines().map_while(|line| line.strip_prefix("//!")).map(|line| line.trim().strip_prefix("| "));
+    let cells = rows.map(|row| Some(row?.split('|').next()?.trim()));
+    cells.skip_while(|cell| !cell.is_some_and(|cell| ["file", "folder", "module"].contains(&cell)))
 }
 
 /// The module that a cell of a table names: `name.rs`, `name/` or a link to it.

@@ -1,10 +1,10 @@
 //! The rules between files of the crate.
 
-use crate::modules::{Modules, Segments};
+use crate::modules::{Module, Modules, Segments, child};
 use crate::resolve::Uses;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Imports of a module or room by one that stands before it in the table of the folder that both are in, one a line.
+/// Imports of a module by one that stands before it in the table of the folder that both are in, one a line.
 pub(crate) fn upward(modules: &Modules, uses: &Uses) -> Vec<String> {
     let mut edges = Vec::new();
     for ((from, to), names) in uses {
@@ -22,10 +22,11 @@ pub(crate) fn upward(modules: &Modules, uses: &Uses) -> Vec<String> {
 }
 
 impl Modules {
-    /// The row of a room in the table of its folder: of a folder, or of anything at the root.
+    /// The row of a module in the table of its folder; `None` for a file where the table orders only folders.
     fn rank(&self, folder: &[String], name: &str) -> Option<usize> {
-        let is_room = folder.is_empty() || !self.0.get(&crate::modules::child(folder, name))?.files.is_empty();
-        is_room.then(|| self.0[folder].table.iter().position(|names| names.iter().any(|n| n == name))).flatten()
+        let Module { table, orders_files, .. } = &self.0[folder];
+        let is_ordered = *orders_files || !self.0.get(&child(folder, name))?.files.is_empty();
+        is_ordered.then(|| table.iter().position(|names| names.iter().any(|n| n == name))).flatten()
     }
 }
 
