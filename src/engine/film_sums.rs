@@ -17,7 +17,7 @@ pub struct FilmSums {
     weight: f64,
     /// Sums over all iterations. Empty before the first iteration: a scene that is edited again at once needs no film.
     all: Vec<PixelSums>,
-    /// Sums over the first iterations, up to the last power of two before the present one. Their difference to the other iterations
+    /// Sums over the first iterations, up to the last power of two before the present one. Their difference to the later iterations
     /// tells the error. Every second iteration would not do: neighbours in a low-discrepancy sequence complement each other, and differ
     /// more than their mean errs.
     first: Vec<PixelSums>,
@@ -26,11 +26,11 @@ pub struct FilmSums {
     halves: Option<Differences>,
 }
 
-/// Weight of the other iterations, over that of the first ones, from which on their difference begins to tell the noise, and from which
-/// on it alone tells it. Fewer iterations are not representative.
+/// Weight of the later iterations over the weight of the first iterations: from the first value on, the difference between the two sets
+/// begins to tell the noise, from the second on, it alone tells the noise. Fewer iterations are not representative.
 const TELLING_WEIGHTS: [f64; 2] = [0.25, 0.75];
 
-/// The differences between the first iterations and the other ones.
+/// The differences between the first and the later iterations of a film.
 #[derive(Clone, Debug, PartialEq)]
 struct Differences {
     /// Mean squared noise of the mean over all iterations, over pixels and channels.
@@ -158,7 +158,7 @@ impl FilmSums {
         LinearImage { width: self.width, height: self.height, pixels }
     }
 
-    /// Estimated RMSE of the image over its mean: from its noise, which the difference between the first and the other iterations tells,
+    /// Estimated RMSE of the image over its mean: from its noise, which the difference between the first and the later iterations tells,
     /// and its mean squared bias over pixels and channels. `None` before [`Self::ESTIMATED_FROM`] iterations and for a black picture.
     pub fn error_estimate(&self, squared_bias: f64) -> Option<f64> {
         let halves = self.halves.as_ref()?;
@@ -173,7 +173,7 @@ impl FilmSums {
         (mean > 0.0).then(|| (squared_noise + squared_bias).sqrt() / mean)
     }
 
-    /// The differences between the first iterations and the other ones; `None` without either.
+    /// The differences between the first and the later iterations; `None` where one of the two sets is empty.
     fn differences(&self) -> Option<Differences> {
         let other_weight = self.weight - self.first_weight;
         if !(other_weight > 0.0 && self.first_weight > 0.0) {
@@ -215,7 +215,7 @@ mod tests {
         vec![PixelSamples::default(); PIXELS as usize]
     }
 
-    /// Of this number, sum and weight.
+    /// The camera samples of a pixel with this number of samples, sum of their radiance, and weight.
     fn pixel(count: u32, sum: Rgb, weight: f32) -> PixelSamples {
         PixelSamples { count, sum, weight, ..PixelSamples::default() }
     }

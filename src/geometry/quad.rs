@@ -102,8 +102,8 @@ impl Quad {
             return offset.dot(self.normal).abs();
         }
         let to_edge = |start: DVec3, along: DVec3| {
-            let part = ((point - start).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            point.distance(start + part * along)
+            let fraction = ((point - start).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            point.distance(start + fraction * along)
         };
         let (near, far) = (self.corner, self.corner + self.edge_u + self.edge_v);
         let edges = [(near, self.edge_u), (near, self.edge_v), (far, -self.edge_u), (far, -self.edge_v)];

@@ -45,8 +45,8 @@ impl TextureKey {
         } else {
             (Texels::Bytes(picture.into_rgb8().pixels().map(|p| p.0).collect()), u16::from(u8::MAX))
         };
-        let part = |k: u16| f32::from(k) / f32::from(most);
-        let meaning = |k: u16| if self.linear { part(k) } else { linear_from_srgb(part(k)) };
+        let fraction = |k: u16| f32::from(k) / f32::from(most);
+        let meaning = |k: u16| if self.linear { fraction(k) } else { linear_from_srgb(fraction(k)) };
         Ok(Image { width, height, texels, values: (0..=most).map(meaning).collect() })
     }
 }

@@ -176,7 +176,7 @@ mod tests {
     }
 
     /// All pixels of a colour below the head.
-    fn places(png: &[u8], color: RGBColor) -> Vec<(u32, u32)> {
+    fn positions(png: &[u8], color: RGBColor) -> Vec<(u32, u32)> {
         let image = image::load_from_memory(png).unwrap().into_rgb8();
         assert_eq!(image.dimensions(), (WIDTH, HEIGHT));
         let colored = image.enumerate_pixels().filter(|(_, y, p)| *y >= HEAD && p.0 == [color.0, color.1, color.2]);
@@ -188,8 +188,8 @@ mod tests {
         let rows = [row(0, 1.0, 0.1), row(0, 2.0, 0.05), row(0, 4.0, 0.02)];
         let png = png("a title", &rows).unwrap();
         for curve in curves(&rows) {
-            let places = places(&png, curve.color);
-            let (first, last) = (places.iter().min().unwrap(), places.iter().max().unwrap());
+            let positions = positions(&png, curve.color);
+            let (first, last) = (positions.iter().min().unwrap(), positions.iter().max().unwrap());
             assert!(first.0 + 400 < last.0 && first.1 + 50 < last.1, "{}: {first:?} {last:?}", curve.name);
         }
     }
@@ -214,7 +214,7 @@ mod tests {
     fn there_is_a_plot_of_no_errors_too() {
         for rows in [&[][..], &[row(0, 1.0, 0.0), row(0, 2.0, f64::NAN)]] {
             let png = png(&"\u{4e2d}".repeat(200), rows).unwrap();
-            assert_eq!(places(&png, curves(rows)[0].color), []);
+            assert_eq!(positions(&png, curves(rows)[0].color), []);
         }
     }
 }

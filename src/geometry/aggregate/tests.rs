@@ -51,11 +51,11 @@ fn unit(k: u64) -> DVec3 {
 fn scattered(count: u64) -> Aggregate {
     let mut primitives = vec![Primitive::Plane(Plane::new(-3.0 * DVec3::Y, DVec3::Y, None))];
     for k in 0..count {
-        let place = 6.0 * unit(k);
+        let position = 6.0 * unit(k);
         primitives.push(match k % 3 {
-            0 => Primitive::Quad(Quad::new(place, unit(100 + k), DVec3::Y)),
-            1 => Primitive::Sphere(Sphere { center: place, radius: 0.3 }),
-            _ => Primitive::Patch(Arc::new(Patch::new(bent_net(place)))),
+            0 => Primitive::Quad(Quad::new(position, unit(100 + k), DVec3::Y)),
+            1 => Primitive::Sphere(Sphere { center: position, radius: 0.3 }),
+            _ => Primitive::Patch(Arc::new(Patch::new(bent_net(position)))),
         });
     }
     Aggregate::new(primitives)

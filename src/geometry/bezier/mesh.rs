@@ -168,8 +168,8 @@ mod tests {
 
     #[test]
     fn a_small_body_beside_a_large_one_is_welded_shut_too() {
-        let place = |size: f64, at: f64| cube().into_iter().map(move |net| net.map(|p| size * p + DVec3::splat(at)));
-        let mesh = mesh_of(&place(1e6, -2e6).chain(place(1e-3, 0.0)).collect::<Vec<_>>(), 4);
+        let cube_at = |size: f64, at: f64| cube().into_iter().map(move |net| net.map(|p| size * p + DVec3::splat(at)));
+        let mesh = mesh_of(&cube_at(1e6, -2e6).chain(cube_at(1e-3, 0.0)).collect::<Vec<_>>(), 4);
         assert_eq!(mesh.positions.len(), 2 * 98);
         assert_closed(&mesh);
     }

@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn phong_lobe_reflects_what_it_says() {
+    fn a_phong_lobe_reflects_its_albedo() {
         // Straight down the lobe is symmetric: its albedo is (n + 2) / (n + 1) * E[cos] = 1.
         let lobe = Lobe::Phong { specular: Rgb::ONE, exponent: 20.0 };
         let scattering = Scattering { albedo: Rgb::ZERO, lobe };

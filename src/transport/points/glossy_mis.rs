@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn photons_count_what_is_dense() {
+    fn photons_have_weight_only_where_they_are_dense() {
         let camera = Camera::new(&crate::scene::Camera::default(), 100, 100);
         let mis = GlossyMis::new(camera, vec![1000, 0], 6.0);
         let lobe = view(&mis, 30.0);

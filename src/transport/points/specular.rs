@@ -143,7 +143,7 @@ mod tests {
     /// Straight through the middle of glass in water in air: at normal incidence each interface passes `4 a b / (a + b)^2` of the light,
     /// and the bodies absorb over 1, 2 and 1 units.
     #[test]
-    fn nested_glass_passes_what_fresnel_and_beer_say() {
+    fn nested_glass_transmits_by_fresnel_and_beer() {
         let world = glass_in_water();
         let (mut ray, mut media) = (Ray::new(DVec3::new(0.0, 0.0, 4.0), DVec3::NEG_Z), Media::default());
         let (mut flux, mut radiance) = (Rgb::ONE, Rgb::ONE);
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_direction_is_chosen_as_often_as_light_takes_it() {
+    fn directions_are_chosen_by_their_share_of_the_light() {
         let world = glass_in_water();
         let ray = Ray::new(DVec3::new(1.8, 0.0, 4.0), DVec3::NEG_Z);
         let vertex = testing::vertex(&world, &ray);

@@ -221,7 +221,7 @@ impl PhotonMap {
     /// Memory on the heap, bytes.
     pub fn memory_bytes(&self) -> usize {
         self.nodes.capacity() * (size_of::<Node>() + size_of::<Moments>())
-            + self.blocks.iter().map(|part| part.capacity() * size_of::<PhotonBlock>()).sum::<usize>()
+            + self.blocks.iter().map(|blocks| blocks.capacity() * size_of::<PhotonBlock>()).sum::<usize>()
     }
 }
 

@@ -88,7 +88,7 @@ fn check_sums<L: Lanes>(l: L) {
 }
 
 #[test]
-fn sums_what_a_linear_scan_sums() {
+fn sums_equal_the_sums_of_a_linear_scan() {
     check_sums(Portable);
     with_lanes!(widest => check_sums(widest));
 }
