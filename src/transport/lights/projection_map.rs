@@ -296,7 +296,9 @@ pub(super) fn cones_of_objects(world: &World, light: &Light, aim: &impl Aim) -> 
             *of_object = of_object.union(&of_primitive);
         }
     }
-    let cone = |bounds: &Aabb| Cone::around(bounds.center() - light.center(), 0.5 * bounds.diagonal() + light.reach());
+    let cone = |bounds: &Aabb| {
+        Cone::around(bounds.center() - light.center(), 0.5 * bounds.diagonal() + light.bounding_radius())
+    };
     bounds.iter().map(|(&object, bounds)| (object, cone(bounds))).collect()
 }
 

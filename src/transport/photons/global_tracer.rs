@@ -309,10 +309,12 @@ mod tests {
     #[test]
     fn paths_arrive_where_light_comes_first() {
         let world = testing::world(&[sphere("room", [0.0; 3], 2.0, "black"), lamp([0.0; 3])].concat());
-        let arrivals = arrivals_of_path(&world, 0, Sampler::new(4, Stream::Camera, 0, 0));
+        let arrivals =
+            arrivals_of_path(&world, &PhotonEmission::of_lights(&world), 0, Sampler::new(4, Stream::Camera, 0, 0));
         assert!(arrivals.is_empty(), "a black room stores nothing");
         let world = testing::world(&[sphere("room", [0.0; 3], 2.0, "grey"), lamp([0.0; 3])].concat());
-        let arrivals = arrivals_of_path(&world, 0, Sampler::new(4, Stream::Camera, 0, 0));
+        let arrivals =
+            arrivals_of_path(&world, &PhotonEmission::of_lights(&world), 0, Sampler::new(4, Stream::Camera, 0, 0));
         let distance = arrivals.first().expect("the first arrival counts, too").length();
         assert!(distance < 2.0 && distance > 2.0 - 1e-4, "a little in front of the wall: {distance}");
     }

@@ -1,0 +1,56 @@
+//! Lamps from which the scene appears small: photons of caustics and of interreflection aim at it.
+
+use crate::support::{advanced, assert_near, mean, object, quad, scene, sphere};
+use patchlight::engine::Session;
+use patchlight::transport::Component;
+
+/// The mean of one component of the picture of two walls and a glass ball on the ground, lit from this distance with the same irradiance.
+fn lit_from(distance: f64, ground: &str, component: Component) -> f64 {
+    let direction = [0.36, 0.8, 0.48].map(|x: f64| x * distance);
+    let intensity = [3.0 * distance * distance; 3];
+    let head = "[camera]\nposition = [0, 1.6, 3.2]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 32\nheight = 32
+        [[material]]\nname = \"white\"\ntype = \"diffuse\"\nalbedo = [0.8, 0.8, 0.8]
+        [[material]]\nname = \"g\"\ntype = \"glass\"\nior = 1.5\n";
+    let lamp =
+        format!("[[light]]\nname = \"l\"\ntype = \"point\"\nposition = {direction:?}\nintensity = {intensity:?}\n");
+    let wall = quad("wall", [[-1.0, 0.0, -1.0], [2.0, 0.0, 0.0], [0.0, 1.5, 0.0]], "white");
+    let text = [head, &lamp, ground, &wall, &sphere("ball", [0.0, 0.4, 0.0], 0.3, "g")].concat();
+    let session = Session::prepare(&scene(&text), 1, None).expect("the scene can be prepared");
+    mean(&advanced(session.only(Some(component)), 8).film().image())
+}
+
+#[test]
+fn the_distance_of_a_lamp_does_not_matter() {
+    let square = quad("ground", [[-2.0, 0.0, 2.0], [4.0, 0.0, 0.0], [0.0, 0.0, -4.0]], "white");
+    let plane = object("ground", "plane", "white", "point = [0, 0, 0]\nnormal = [0, 1, 0]");
+    for ground in [square, plane] {
+        for component in [Component::Caustics, Component::Interreflection] {
+            let near = lit_from(40.0, &ground, component);
+            assert!(near > 1e-3, "{component:?}: {near}");
+            for distance in [400.0, 5e3, 5e5] {
+                // From 40 units the rays diverge by a degree or two, which moves light by a few hundredths.
+                assert_near(lit_from(distance, &ground, component), near, 0.06, &format!("{component:?}, {ground}"));
+            }
+        }
+    }
+}
+
+/// A ball of 0.003 beside a large pane has its caustic: it gets a share of the paths, although the pane fills most of the directions.
+#[test]
+fn a_tiny_ball_beside_a_pane_has_a_caustic() {
+    let head =
+        "[camera]\nposition = [0.05, 0.02, 0.05]\ntarget = [0, 0, 0]\nfov_y = 12\n[film]\nwidth = 32\nheight = 32
+        [[material]]\nname = \"white\"\ntype = \"diffuse\"\nalbedo = [0.8, 0.8, 0.8]
+        [[material]]\nname = \"g\"\ntype = \"glass\"\nior = 1.5
+        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = [1, 1, 1]\n";
+    let pane = quad("pane", [[0.3, 0.5, -2.0], [0.0, 0.0, 4.0], [2.0, 0.0, 0.0]], "g");
+    let ground = quad("ground", [[-2.0, 0.0, 2.0], [4.0, 0.0, 0.0], [0.0, 0.0, -4.0]], "white");
+    let text = [head, &pane, &ground, &sphere("ball", [0.0, 0.005, 0.0], 0.003, "g")].concat();
+    let session = Session::prepare(&scene(&text), 1, None).expect("the scene can be prepared");
+    let session = advanced(session.only(Some(Component::Caustics)), 8);
+    assert!(session.stats().counters.splats > 100, "{} photons in view", session.stats().counters.splats);
+    let image = session.film().image();
+    let brightest = image.pixels.iter().map(|pixel| pixel.y).fold(0.0, f32::max);
+    // The ball focuses the light of its cross-section; direct light is 0.8 / (4 pi).
+    assert!(brightest > 0.15, "{brightest}");
+}
