@@ -177,9 +177,12 @@
 //! - \[GKDS12\] I. Georgiev et al., Light Transport Simulation with Vertex Connection and Merging, ACM TOG 31(6), 2012.
 //! - \[Haines19\] E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, Ray
 //!   Tracing Gems, 2019.
+//! - \[HanleyLippman83\] J. A. Hanley, A. Lippman-Hand, If Nothing Goes Wrong, Is Everything All Right?, JAMA 249(13), 1983.
 //! - \[HJ09\] T. Hachisuka, H. W. Jensen, Stochastic Progressive Photon Mapping, ACM TOG 28(5), 2009.
 //! - \[HOJ08\] T. Hachisuka, S. Ogaki, H. W. Jensen, Progressive Photon Mapping, ACM TOG 27(5), 2008.
 //! - \[Jensen96\] H. W. Jensen, Global Illumination using Photon Maps, EGWR 1996.
+//! - \[JonesFoster96\] M. C. Jones, P. J. Foster, A Simple Nonnegative Boundary Correction Method for Kernel Density Estimation, Statistica
+//!   Sinica 6, 1996.
 //! - \[JoeKuo08\] S. Joe, F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci.
 //!   Comput. 30, 2008.
 //! - \[KD13\] A. Kaplanyan, C. Dachsbacher, Adaptive Progressive Photon Mapping, ACM TOG 32(2), 2013.

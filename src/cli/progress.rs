@@ -25,7 +25,12 @@ impl Progress {
         let fraction = fraction_done(&self.budget, stats).clamp(0.0, 1.0);
         self.bar.set_position((STEPS as f64 * fraction) as u64);
         let error = stats.error_estimate.map_or(String::new(), |e| format!(", error about {:.1} %", 100.0 * e));
-        self.bar.set_message(format!("{}, {:.0} s{error}", counted(stats.iterations, "iteration"), stats.seconds));
+        let missing = stats.missing_light.map_or(String::new(), |missing| format!("; {missing}"));
+        self.bar.set_message(format!(
+            "{}, {:.0} s{error}{missing}",
+            counted(stats.iterations, "iteration"),
+            stats.seconds
+        ));
     }
 }
 

@@ -102,6 +102,9 @@ fn report(frame: &Frame, output: &Path) -> Result<(), CliError> {
     let mut err = stderr().lock();
     let iterations = counted(stats.iterations, "iteration");
     writeln!(err, "{}: {iterations} in {:.1} s", output.display(), stats.seconds)?;
+    if let Some(missing) = stats.missing_light {
+        writeln!(err, "{missing}")?;
+    }
     if stats.dropped_samples > 0 {
         writeln!(err, "dropped {} that were not finite", counted(stats.dropped_samples, "sample"))?;
     }

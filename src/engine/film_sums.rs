@@ -158,9 +158,21 @@ impl FilmSums {
         LinearImage { width: self.width, height: self.height, pixels }
     }
 
+    /// Sum of the weights of the iterations: their total size, full iterations.
+    pub fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    /// Mean radiance over pixels and channels; 0 before the first iteration.
+    pub fn mean(&self) -> f64 {
+        let total: f64 = self.all.iter().map(|all| all.radiance(self.weight).element_sum()).sum();
+        total / (3.0 * self.all.len().max(1) as f64)
+    }
+
     /// Estimated RMSE of the image over its mean: from its noise, which the difference between the first and the later iterations tells,
-    /// and its mean squared bias over pixels and channels. `None` before [`Self::ESTIMATED_FROM`] iterations and for a black picture.
-    pub fn error_estimate(&self, squared_bias: f64) -> Option<f64> {
+    /// and a mean square over pixels and channels of the errors that noise does not show: bias, and light that is still unseen. `None`
+    /// before [`Self::ESTIMATED_FROM`] iterations and for a black picture.
+    pub fn error_estimate(&self, squared_hidden: f64) -> Option<f64> {
         let halves = self.halves.as_ref()?;
         let [least, most] = TELLING_WEIGHTS;
         let other_weight = (self.weight - self.first_weight) / self.first_weight;
@@ -168,9 +180,8 @@ impl FilmSums {
         let before = halves.squared_noise * self.first_weight / self.weight;
         let now = if trust > 0.0 { self.differences()?.squared_noise } else { 0.0 };
         let squared_noise = (1.0 - trust) * before + trust * now;
-        let total: f64 = self.all.iter().map(|all| all.radiance(self.weight).element_sum()).sum();
-        let mean = total / (3.0 * self.all.len() as f64);
-        (mean > 0.0).then(|| (squared_noise + squared_bias).sqrt() / mean)
+        let mean = self.mean();
+        (mean > 0.0).then(|| (squared_noise + squared_hidden).sqrt() / mean)
     }
 
     /// The differences between the first and the later iterations; `None` where one of the two sets is empty.

@@ -1,8 +1,9 @@
 //! A picture and its statistics.
 
 use crate::film::LinearImage;
-use crate::transport::{Counters, PlanNote};
+use crate::transport::{Counters, PlanItem, PlanNote};
 use crate::world::Warning;
+use std::fmt;
 use std::sync::Arc;
 
 /// A picture of a scene at some moment of its rendering.
@@ -50,10 +51,32 @@ pub struct Stats {
     pub radius: f64,
     /// Estimated RMSE over the mean of the picture; `None` before there is an estimate.
     pub error_estimate: Option<f64>,
+    /// Light of a component that too few photons have sampled, where the error estimate mostly consists of it.
+    pub missing_light: Option<MissingLight>,
     /// Wall-clock time of each pass.
     pub passes: PassSeconds,
     /// All work counters.
     pub counters: Counters,
+}
+
+/// Light that may be missing, because too few photons have sampled a component. `Display` says so in words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MissingLight {
+    /// The component.
+    pub item: PlanItem,
+    /// The most light that may be missing, over the mean of the picture; `None` while the picture is black.
+    pub share: Option<f64>,
+}
+
+impl fmt::Display for MissingLight {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "too few photons for {} so far", self.item)?;
+        match self.share {
+            Some(share) if share < 1.0 => write!(f, ": up to {:.2} % of the light may be missing", 100.0 * share),
+            Some(_) => write!(f, ": more light than the picture shows may be missing"),
+            None => write!(f, ": the picture is still black"),
+        }
+    }
 }
 
 /// Wall-clock seconds of each pass, over all iterations. The camera and gather passes alternate on each thread; their time is the sum

@@ -30,9 +30,9 @@ mod shared;
 mod worker;
 
 pub use film_sums::FilmSums;
-pub use frame::{Frame, PassSeconds, PlanSummary, Stats};
+pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, Stats};
 pub use handle::Engine;
 pub use messages::{Command, EngineError, EngineSettings, Status};
-pub use session::{Session, SessionError};
+pub use session::{BLACK_ITERATIONS, Session, SessionError};
 
 pub use crate::transport::{Counters, PlanItem, PlanNote};

@@ -1,12 +1,12 @@
 //! The rendering of one scene.
 
 use super::film_sums::FilmSums;
-use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
+use super::frame::{Frame, MissingLight, PassSeconds, PlanSummary, Stats};
 use super::iteration::render_iteration;
 use super::pass_meter::{Pass, PassMeter, Work};
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Component, Contribution, Counters, FilmStatistics, PassInput, Plan};
+use crate::transport::{Cancel, Component, Contribution, Counters, FilmStatistics, PassInput, Plan, UnseenLight};
 use crate::world::{Camera, PrepareError, World, prepare, warnings};
 use std::sync::Arc;
 use std::time::Instant;
@@ -32,6 +32,9 @@ pub enum SessionError {
         needed: u64,
     },
 }
+
+/// Iterations after which a picture without any light counts as black: a relative error has no meaning there.
+pub const BLACK_ITERATIONS: u64 = 64;
 
 /// Most memory for each pixel, bytes: film sums, statistics, an iteration with lobe samples, a frame and the encoded file.
 const BYTES_PER_PIXEL: u64 = 400;
@@ -141,9 +144,11 @@ impl Session {
         self.film.iterations()
     }
 
-    /// Whether the estimated error (RMSE over the mean) is known and at most this. A black picture has no error.
+    /// Whether the estimated error (RMSE over the mean) is known and at most this. A black picture has no error once
+    /// [`BLACK_ITERATIONS`] found no light, or if there is no photon to wait for.
     pub fn reaches(&self, error: f64) -> bool {
-        self.may_estimate() && self.error_estimate().is_none_or(|estimate| estimate <= error)
+        let is_black = || self.iterations() >= BLACK_ITERATIONS || self.unseen_light().is_none();
+        self.may_estimate() && self.error_estimate().map_or_else(is_black, |estimate| estimate <= error)
     }
 
     /// Whether the iterations suffice to estimate the error.
@@ -155,7 +160,22 @@ impl Session {
         if !self.may_estimate() {
             return None;
         }
-        self.film.error_estimate(self.statistics.as_ref().map_or(0.0, FilmStatistics::squared_bias))
+        let squared_bias = self.statistics.as_ref().map_or(0.0, FilmStatistics::squared_bias);
+        let unseen = self.unseen_light().map_or(0.0, |unseen| unseen.radiance);
+        self.film.error_estimate(squared_bias + unseen.powi(2))
+    }
+
+    /// The light that no photon path has brought yet; `None` without photons and before the first iteration.
+    fn unseen_light(&self) -> Option<UnseenLight> {
+        (self.film.weight() > 0.0).then(|| self.plan.unseen_light(self.film.weight()))?
+    }
+
+    /// What the error estimate mostly consists of, where that is light still unseen.
+    fn missing_light(&self, error_estimate: Option<f64>) -> Option<MissingLight> {
+        let (UnseenLight { item, radiance }, mean) = (self.unseen_light()?, self.film.mean());
+        let share = (mean > 0.0).then(|| radiance / mean);
+        let rules = |share: f64| error_estimate.is_some_and(|estimate| 2.0 * share.powi(2) > estimate.powi(2));
+        share.is_none_or(rules).then_some(MissingLight { item, share })
     }
 
     /// Rendering time of all iterations, cancelled ones included, seconds.
@@ -193,10 +213,12 @@ impl Session {
     /// Statistics of the rendering so far.
     pub fn stats(&self) -> Stats {
         let distance = self.world.camera.position.distance(self.world.center);
+        let error_estimate = self.error_estimate();
         Stats {
             iterations: self.film.iterations(),
             radius: self.plan.mean_radius(distance, self.film.iterations()),
-            error_estimate: self.error_estimate(),
+            error_estimate,
+            missing_light: self.missing_light(error_estimate),
             ..stats(&self.counters, self.passes, self.seconds)
         }
     }

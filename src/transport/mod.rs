@@ -47,5 +47,5 @@ pub use passes::{
     camera_pass, caustic_photon_pass, gather, global_photon_pass, lobe_samples,
 };
 pub use photons::{GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query};
-pub use plan::{CausticPlan, Component, Plan, PlanItem, PlanNote, Radii};
+pub use plan::{CausticPlan, Component, Plan, PlanItem, PlanNote, Radii, UnseenLight};
 pub use points::{Clearance, Facet, Fresnel, GlossyMis, VisiblePoint, fresnel};

@@ -57,6 +57,9 @@ fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {
         row("Rays", short(stats.rays as f64));
         row("Gather radius", if stats.radius > 0.0 { format!("{:.5}", stats.radius) } else { "–".to_owned() });
         row("Error estimate", stats.error_estimate.map_or("unknown yet".to_owned(), percent));
+        if let Some(missing) = stats.missing_light {
+            row("Missing light", missing.to_string());
+        }
         if stats.dropped_samples > 0 {
             row("Dropped samples", grouped(stats.dropped_samples));
         }

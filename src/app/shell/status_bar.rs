@@ -47,8 +47,9 @@ fn progress_text(frame: &Frame) -> String {
         return "draft".to_owned();
     }
     let stats = &frame.stats;
+    let missing = stats.missing_light.map_or(String::new(), |missing| format!("; {missing}"));
     format!(
-        "iteration {}, {}, {} photons",
+        "iteration {}, {}, {} photons{missing}",
         grouped(frame.iteration),
         duration(stats.seconds),
         grouped(stats.photons_emitted)

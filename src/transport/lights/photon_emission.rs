@@ -51,6 +51,14 @@ impl PhotonEmission {
         }
     }
 
+    /// Fraction of the sphere of directions that the paths share.
+    pub(in crate::transport) fn aimed_fraction(&self) -> f64 {
+        match self {
+            Self::Everywhere => 1.0,
+            Self::Aimed(map) => map.aimed_fraction(),
+        }
+    }
+
     /// Density of the paths that leave this point of a light, per area across them at `point`, scene units.
     #[inline]
     pub(in crate::transport) fn density(&self, light: &Light, light_point: DVec3, point: DVec3) -> f64 {

@@ -167,6 +167,11 @@ impl ProjectionMap {
         (cos > 0.0).then(|| Emission { origin: position, direction, flux: strength * (cos / pdf) as f32 })
     }
 
+    /// Fraction of the sphere of directions that the aimed paths share: everywhere, if the light meets none of the surfaces.
+    pub(in crate::transport) fn aimed_fraction(&self) -> f64 {
+        if self.covered > 0.0 { self.covered } else { 1.0 }
+    }
+
     /// Fraction of the sphere of directions in which the light meets the surfaces, 0 to 1.
     pub fn covered(&self) -> f64 {
         self.covered

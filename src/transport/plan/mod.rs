@@ -15,6 +15,7 @@
 //! | `interreflection` | whether there is interreflection |
 //! | `radius` | the radius at a point in an iteration |
 //! | `samples` | camera samples and paths of an iteration |
+//! | `unseen_light` | a bound of the light that no path has brought yet |
 //! | `new`, `draft`, `refined`, `only` | the four kinds of plans |
 
 mod caustics;
@@ -31,6 +32,7 @@ mod radius;
 mod refined;
 mod render_plan;
 mod samples;
+mod unseen_light;
 
 pub(in crate::transport) use interleaved_grid::InterleavedGrid;
 pub use notes::{PlanItem, PlanNote};
@@ -38,3 +40,4 @@ pub use only::Component;
 pub use radii::Radii;
 pub(in crate::transport) use radius::IterationRadii;
 pub use render_plan::{CausticPlan, Plan};
+pub use unseen_light::UnseenLight;

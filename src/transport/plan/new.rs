@@ -5,6 +5,7 @@ use super::interreflection;
 use super::notes::Notes;
 use super::radii::{GLOSSY_RADIUS, Radii};
 use super::render_plan::Plan;
+use super::unseen_light::RadianceOfPath;
 use crate::transport::lights::{LightSampler, PhotonEmission};
 use crate::transport::points::GlossyMis;
 use crate::world::World;
@@ -35,9 +36,11 @@ impl Plan {
             reuses_lobes: world.object_primitives().any(|p| world.has_uniform_lobe(p)),
             radii: Radii::new(world),
             notes: notes.0,
+            radiance_of_path: RadianceOfPath::default(),
             is_draft: false,
             bandwidth: None,
             samples: None,
         }
+        .with_radiance_of_path(world)
     }
 }

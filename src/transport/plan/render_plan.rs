@@ -2,6 +2,7 @@
 
 use super::notes::PlanNote;
 use super::radii::Radii;
+use super::unseen_light::RadianceOfPath;
 use crate::transport::density::Bandwidth;
 use crate::transport::density::sample_allocation::SampleAllocation;
 use crate::transport::lights::{LightSampler, PhotonEmission, ProjectionMap};
@@ -32,6 +33,8 @@ pub struct Plan {
     pub radii: Radii,
     /// Every decision.
     pub notes: Vec<PlanNote>,
+    /// The light that one photon path would bring.
+    pub(super) radiance_of_path: RadianceOfPath,
     /// Whether the plan is for a quick first picture.
     pub(super) is_draft: bool,
     /// Measured radii, from the first refinement on.

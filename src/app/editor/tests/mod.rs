@@ -111,6 +111,7 @@ fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
         photons_per_second: 80_000.0,
         radius: 0.01,
         error_estimate: Some(0.05),
+        missing_light: None,
         passes: PassSeconds { prepare: 0.01, camera: 0.1, photons: 0.6, map: 0.05, gather: 0.1, commit: 0.02 },
         counters: Counters::default(),
     };
