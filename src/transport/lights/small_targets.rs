@@ -10,8 +10,8 @@ const CELL_PER_RADIUS: f64 = 0.5;
 /// Depth of the tree below the sphere at which cells are a billionth of a radian wide.
 const MAX_DEPTH: u32 = 32;
 /// Greatest angle (radians) between the center of a cell and a point in it, in roots of the cell's solid angle. A square has 0.71; the map
-/// stretches it.
-const CELL_REACH: f64 = 1.2;
+/// stretches it to 1.21 at most.
+const CELL_REACH: f64 = 1.25;
 
 /// A cone of directions in which an object appears, and the probability with which it is to be sampled.
 #[derive(Clone, Copy, Debug)]
