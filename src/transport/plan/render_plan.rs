@@ -2,7 +2,6 @@
 
 use super::notes::PlanNote;
 use super::radii::Radii;
-use super::unseen_light::RadianceOfPath;
 use crate::transport::density::Bandwidth;
 use crate::transport::density::sample_allocation::SampleAllocation;
 use crate::transport::lights::{LightSampler, PhotonEmission, ProjectionMap};
@@ -41,6 +40,13 @@ pub struct Plan {
     pub(super) bandwidth: Option<Arc<Bandwidth>>,
     /// Measured sample counts, from the first refinement on.
     pub(super) samples: Option<Arc<SampleAllocation>>,
+}
+
+/// Mean radiance over the film that one photon path would bring after one full iteration, by component.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RadianceOfPath {
+    pub(super) caustics: f64,
+    pub(super) interreflection: f64,
 }
 
 /// How caustics are rendered.

@@ -6,7 +6,7 @@
 
 use super::notes::PlanItem;
 use super::paths::power;
-use super::render_plan::Plan;
+use super::render_plan::{Plan, RadianceOfPath};
 use crate::world::{Surface, World};
 use glam::DVec2;
 use std::f64::consts::PI;
@@ -23,13 +23,6 @@ pub struct UnseenLight {
     pub item: PlanItem,
     /// Mean over the film of the radiance that may be missing, W per steradian and square scene unit.
     pub radiance: f64,
-}
-
-/// Mean radiance over the film that one photon path would bring after one full iteration, by component.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct RadianceOfPath {
-    caustics: f64,
-    interreflection: f64,
 }
 
 impl Plan {
