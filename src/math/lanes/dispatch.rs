@@ -1,4 +1,4 @@
-/// Evaluates an expression with the widest [`Lanes`] that the processor has, under the name that stands before `=>`.
+/// Evaluates an expression with the widest [`Lanes`](super::Lanes) that the processor has, under the name that stands before `=>`.
 #[cfg(target_arch = "x86_64")]
 macro_rules! with_lanes {
     ($l:ident => $body:expr) => {
