@@ -83,6 +83,14 @@ impl World {
         touching(shape, primitive, [point.position, point.n_geom], self.rounding(point.position))
     }
 
+    /// The index in the scene of the object that a primitive belongs to; `None` for the surface of a light.
+    pub fn object_of(&self, primitive: u32) -> Option<u32> {
+        match self.surfaces[primitive as usize] {
+            Surface::Object { object, .. } => Some(object),
+            Surface::Light(_) => None,
+        }
+    }
+
     /// The rank of the body that a primitive bounds; `None` if it is not of glass.
     #[inline]
     pub fn body_of(&self, primitive: u32) -> Option<u32> {

@@ -61,7 +61,7 @@ impl Warning {
 fn of_body(scene: &Scene, world: &World, body: &Body, warnings: &mut Vec<Warning>) {
     let primitives = world.aggregate.primitives();
     let objects = |of: &[u32]| {
-        let mut objects: Vec<u32> = of.iter().filter_map(|&p| object_of(world, p)).collect();
+        let mut objects: Vec<u32> = of.iter().filter_map(|&p| world.object_of(p)).collect();
         objects.dedup();
         let names: Vec<String> = objects.iter().map(|&o| format!("\"{}\"", scene.objects[o as usize].name)).collect();
         format!("{} {}", if names.len() == 1 { "object" } else { "objects" }, names.join(", "))
@@ -110,19 +110,12 @@ fn of_contacts(scene: &Scene, world: &World, warnings: &mut Vec<Warning>) {
         let (Some(body), Some(other)) = (world.body_of(a), world.body_of(b)) else { continue };
         let [p, q] = [body, other].map(|rank| &world.bodies[rank as usize]);
         if body != other && (p.ior, p.absorption) == (q.ior, q.absorption) {
-            let names = [a, b].map(|k| object_of(world, k).map_or("", |o| &scene.objects[o as usize].name));
+            let names = [a, b].map(|k| world.object_of(k).map_or("", |o| &scene.objects[o as usize].name));
             let fault =
                 format!("coincides with a face of \"{}\", of the same medium: the faces are invisible", names[1]);
             let remedy = "leave both faces out, or give the objects the same `body`";
             warnings.push(Warning::new(format!("object \"{}\"", names[0]), fault, remedy));
         }
-    }
-}
-
-fn object_of(world: &World, primitive: u32) -> Option<u32> {
-    match world.surfaces[primitive as usize] {
-        Surface::Object { object, .. } => Some(object),
-        Surface::Light(_) => None,
     }
 }
 

@@ -1,8 +1,8 @@
 //! How photons of interreflection leave a light: in all directions, or from a far light towards the scene.
 
 use super::ProjectionMap;
+use super::cone::{Cone, cones_of_objects};
 use super::emission::{self, Emission};
-use super::projection_map::{Cone, cones_of_objects};
 use crate::geometry::Primitive;
 use crate::math::Sampler;
 use crate::world::{Light, World};

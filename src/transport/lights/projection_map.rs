@@ -1,11 +1,12 @@
 //! The projection map: directions in which a light meets the surfaces that its photons are to reach \[Jensen96\].
 
+use super::cone::{Aim, Cone, cones_of_objects};
 use super::emission::{self, Emission, Origin};
 use super::light_sampler::MOST_SAMPLED;
 use super::small_targets::{Cell, CellTree, Target, covered_areas};
 use crate::geometry::Primitive;
-use crate::math::{Aabb, OrthonormalBasis, Sampler, Stream, octahedral, warp};
-use crate::world::{Light, Surface, World};
+use crate::math::{OrthonormalBasis, Sampler, Stream, octahedral, warp};
+use crate::world::{Light, World};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -48,10 +49,6 @@ pub struct ProjectionMap {
     covered: f64,
 }
 
-/// A function that tells whether photons are to reach a primitive.
-pub(super) trait Aim: Fn(u32) -> bool + Sync {}
-impl<F: Fn(u32) -> bool + Sync> Aim for F {}
-
 impl ProjectionMap {
     /// The projection map of a light for mirrors and glass.
     pub(in crate::transport) fn of_specular(world: &World, light: &Light, light_index: u64) -> Self {
@@ -65,7 +62,7 @@ impl ProjectionMap {
             .into_iter()
             .filter_map(|(object, cone)| Some((object, cone.filter(is_small_cone)?)))
             .collect();
-        let is_small = |p: u32| object_of(world, p).is_some_and(|object| small.contains_key(&object));
+        let is_small = |p: u32| world.object_of(p).is_some_and(|object| small.contains_key(&object));
         let marks = |p: u32| aim(p) && !is_small(p);
         let along = if world.lights.len() > MOST_SAMPLED { 1 } else { PROBES_ALONG_SIDE };
         let probes = Probes { world, light, light_index };
@@ -86,7 +83,7 @@ impl ProjectionMap {
         let mut cones: Vec<Cone> = (0..)
             .zip(small)
             .filter_map(|(k, (object, cone))| {
-                let of_object = |p: u32| aim(p) && object_of(world, p) == Some(object);
+                let of_object = |p: u32| aim(p) && world.object_of(p) == Some(object);
                 probes.meet_in_cone(k, cone, &of_object).then_some(cone)
             })
             .collect();
@@ -262,56 +259,6 @@ fn cells_of_small_primitives(world: &World, light: &Light, is_aim: &impl Aim) ->
         }
     }
     cells
-}
-
-/// A cone of directions.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cone {
-    /// The unit axis.
-    direction: DVec3,
-    /// Half the angle, radians.
-    radius: f64,
-}
-
-impl Cone {
-    /// The cone in which a ball appears at this offset; `None` from inside of it.
-    pub(super) fn around(offset: DVec3, radius: f64) -> Option<Self> {
-        let sine = radius / offset.length();
-        (sine < 1.0).then(|| Self { direction: offset.normalize(), radius: sine.asin() })
-    }
-
-    /// The solid angle over that of the sphere.
-    pub(super) fn fraction_of_sphere(&self) -> f64 {
-        (0.5 * self.radius).sin().powi(2)
-    }
-
-    fn target(&self) -> Target {
-        Target { direction: self.direction, radius: self.radius, share: 0.0 }
-    }
-}
-
-/// The cones in which objects with surfaces to reach appear from all points of the light; `None` for an object around the light.
-pub(super) fn cones_of_objects(world: &World, light: &Light, aim: &impl Aim) -> BTreeMap<u32, Option<Cone>> {
-    let mut bounds = BTreeMap::<u32, Aabb>::new();
-    for (p, primitive) in (0..).zip(world.aggregate.primitives()) {
-        if let Some(object) = object_of(world, p).filter(|_| aim(p)) {
-            let unbounded = Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
-            let of_primitive = if matches!(primitive, Primitive::Plane(_)) { unbounded } else { primitive.bounds() };
-            let of_object = bounds.entry(object).or_insert(Aabb::EMPTY);
-            *of_object = of_object.union(&of_primitive);
-        }
-    }
-    let cone = |bounds: &Aabb| {
-        Cone::around(bounds.center() - light.center(), 0.5 * bounds.diagonal() + light.bounding_radius())
-    };
-    bounds.iter().map(|(&object, bounds)| (object, cone(bounds))).collect()
-}
-
-fn object_of(world: &World, primitive: u32) -> Option<u32> {
-    match world.surfaces[primitive as usize] {
-        Surface::Object { object, .. } => Some(object),
-        Surface::Light(_) => None,
-    }
 }
 
 /// The targets of the cones beside cells that cover this area of the unit square, and the areas that the targets cover. Each gets a share

@@ -164,7 +164,8 @@ impl<'a> GlobalPhotonTracer<'a> {
         Some(())
     }
 
-    /// [`PhotonPath::mis_density`] of a path that leaves a vertex, after so many bounces before it, in this direction.
+    /// [`PhotonPath::mis_density`] of a path that leaves a vertex in this direction; `bounces` is the number of events before
+    /// the vertex.
     fn mis_density(&self, path: &PhotonPath, bounces: u32, vertex: &Vertex, direction: DVec3) -> Option<f64> {
         match (bounces, path.last_was_specular) {
             (0, false) if self.glossy_mis.is_some_and(GlossyMis::uses_photons) => {

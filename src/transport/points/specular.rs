@@ -99,8 +99,8 @@ impl Continuation {
         self.tint / self.solid_angle_ratio as f32
     }
 
-    /// The number of scattering events of a path with so many of them before. A surface that light does not see is none, except as
-    /// the first one: it tells light that comes through glass from direct light.
+    /// The number of scattering events of a path that had `bounces` of them before. A surface that light does not see counts only as the
+    /// first event: it tells light that comes through glass from direct light.
     #[inline]
     pub(in crate::transport) fn bounces_after(&self, bounces: u32) -> u32 {
         bounces + u32::from(!self.is_straight || bounces == 0)
