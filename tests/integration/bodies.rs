@@ -17,7 +17,7 @@ fn glass(position: [f64; 3], materials: &[(&str, f64, f64)]) -> String {
     })
 }
 
-/// The bounces are so many that no light is lost at their limit.
+/// A background of radiance 1, and a limit of bounces at which no light is lost.
 const FURNACE: &str = "[render]\nmax_bounces = 400\nbackground = [1, 1, 1]\n";
 
 /// The faces of a box with normals to the outside, each with a material.

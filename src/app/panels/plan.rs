@@ -4,7 +4,7 @@ use crate::app::theme;
 use crate::engine::PlanSummary;
 use egui::Ui;
 
-/// The plan, one line per note, and the warnings.
+/// The plan, one line per note.
 pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
     let palette = theme::palette(ui.visuals().dark_mode);
     for note in &plan.notes {
@@ -16,6 +16,11 @@ pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
             ui.weak(format!("{how}{}", note.reason));
         });
     }
+}
+
+/// The warnings about the scene, one paragraph each.
+pub(super) fn warnings_ui(ui: &mut Ui, plan: &PlanSummary) {
+    let palette = theme::palette(ui.visuals().dark_mode);
     for warning in &plan.warnings {
         ui.horizontal_wrapped(|ui| {
             ui.colored_label(palette.warning, "⚠");

@@ -3,7 +3,7 @@
 use super::error_plot::error_plot_ui;
 use super::fields::rows;
 use super::numbers::{duration, grouped, percent, short, target_text};
-use super::plan::plan_ui;
+use super::plan::{plan_ui, warnings_ui};
 use super::settings::display_rows;
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit};
@@ -27,6 +27,7 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
     ui.add_space(4.0);
     error_plot_ui(ui, rendering.error_curve(), rendering.target());
     CollapsingHeader::new("Time per iteration").default_open(true).show(ui, |ui| passes_ui(ui, &frame.stats));
+    warnings_ui(ui, &frame.plan);
     CollapsingHeader::new("Plan").default_open(false).show(ui, |ui| plan_ui(ui, &frame.plan));
 }
 
