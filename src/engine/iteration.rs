@@ -6,9 +6,9 @@ use crate::transport::{
 };
 use rayon::prelude::*;
 
-/// Renders an iteration: the photon passes, the photon maps, then the camera pass and the gather pass band by band. A pure function of
-/// `input`; `None` when cancelled. [`Session`](super::Session) commits the result to the film.
-pub(super) fn render_iteration(input: &PassInput, meter: &PassMeter) -> Option<Contribution> {
+/// Renders an iteration: the photon passes, the photon maps, the camera pass and the gather pass band by band, and the commit of the
+/// contribution, which is a pure function of `input`. Returns what `commit` returns; `None` when cancelled, before any commit.
+pub fn iterate<T>(input: &PassInput, meter: &PassMeter, commit: impl FnOnce(&Contribution) -> T) -> Option<T> {
     let plan = input.plan;
     // Both photon passes at once: no thread idles at the end of the first one.
     let photon_passes = || rayon::join(|| caustic_photon_pass(input), || global_photon_pass(input));
@@ -22,5 +22,6 @@ pub(super) fn render_iteration(input: &PassInput, meter: &PassMeter) -> Option<C
         Some(Band::new(input, &rows, seen, &gathered.points))
     };
     let bands: Vec<Band> = plan.bands(input.iteration).into_par_iter().map(band).collect::<Option<_>>()?;
-    Some(meter.time(Pass::Gather, || Contribution::new(&bands, &caustic.splats, plan.camera.width)))
+    let contribution = meter.time(Pass::Gather, || Contribution::new(&bands, &caustic.splats, plan.camera.width));
+    Some(meter.time(Pass::Commit, || commit(&contribution)))
 }

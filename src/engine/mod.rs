@@ -32,7 +32,9 @@ mod worker;
 pub use film_sums::FilmSums;
 pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, Stats};
 pub use handle::Engine;
+pub use iteration::iterate;
 pub use messages::{Command, EngineError, EngineSettings, Status};
+pub use pass_meter::PassMeter;
 pub use session::{BLACK_ITERATIONS, Session, SessionError};
 
 pub use crate::transport::{Counters, PlanItem, PlanNote};

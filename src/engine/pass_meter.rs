@@ -24,7 +24,7 @@ pub(super) struct Work {
 
 /// Adds up the work of the passes of an iteration, from any thread.
 #[derive(Debug, Default)]
-pub(super) struct PassMeter(Mutex<Work>);
+pub struct PassMeter(Mutex<Work>);
 
 impl PassMeter {
     /// Runs a pass that uses all threads; adds its time and its work.

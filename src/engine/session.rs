@@ -2,8 +2,8 @@
 
 use super::film_sums::FilmSums;
 use super::frame::{Frame, MissingLight, PassSeconds, PlanSummary, Stats};
-use super::iteration::render_iteration;
-use super::pass_meter::{Pass, PassMeter, Work};
+use super::iteration::iterate;
+use super::pass_meter::{PassMeter, Work};
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
 use crate::transport::{Cancel, Component, Contribution, Counters, FilmStatistics, PassInput, Plan, UnseenLight};
@@ -108,35 +108,22 @@ impl Session {
     /// Renders the next iteration and commits it to the film; `None` when cancelled, which does not change the film.
     pub fn advance(&mut self, cancel: Cancel) -> Option<()> {
         let start = Instant::now();
-        let number = self.film.iterations() + 1;
+        let Self { world, plan, film, statistics, seed, .. } = self;
+        let (seed, iteration) = (*seed, film.iterations() + 1);
         let meter = PassMeter::default();
-        let contribution = render_iteration(&self.input(&self.plan, number, cancel), &meter);
-        let committed = contribution.map(|contribution| {
-            meter.time(Pass::Commit, || self.commit(number, &contribution));
-            let Work { counters, seconds } = meter.work();
-            self.counters += counters;
-            self.passes += seconds;
+        let input = PassInput { world, plan, seed, iteration, cancel };
+        let refined = iterate(&input, &meter, |contribution| {
+            let new = || FilmStatistics::new(plan.camera.width, plan.camera.height);
+            commit(film, statistics.get_or_insert_with(new), plan, iteration, contribution)
         });
         self.seconds += start.elapsed().as_secs_f64();
-        committed
-    }
-
-    fn input<'a>(&'a self, plan: &'a Plan, iteration: u64, cancel: Cancel<'a>) -> PassInput<'a> {
-        PassInput { world: &self.world, plan, seed: self.seed, iteration, cancel }
-    }
-
-    /// Adds an iteration to the film and to the measurements, and refines the plan where the schedule says so.
-    fn commit(&mut self, number: u64, contribution: &Contribution) {
-        let Contribution { photons, samples, differences } = contribution;
-        let (width, height) = (self.plan.camera.width, self.plan.camera.height);
-        let statistics = self.statistics.get_or_insert_with(|| FilmStatistics::new(width, height));
-        let weight = self.plan.weight(number);
-        let film = &mut self.film;
-        rayon::join(|| film.commit(weight, photons, samples), || statistics.add(number, differences, samples));
-        if let Some(refined) = self.plan.refined(number, statistics) {
+        if let Some(refined) = refined? {
             self.plan = refined;
-            statistics.begin_refined();
         }
+        let Work { counters, seconds } = meter.work();
+        self.counters += counters;
+        self.passes += seconds;
+        Some(())
     }
 
     /// Number of iterations in the film.
@@ -201,12 +188,13 @@ impl Session {
         let plan = self.plan.draft(coarseness);
         let (width, height) = (plan.camera.width, plan.camera.height);
         let meter = PassMeter::default();
-        let contribution = render_iteration(&self.input(&plan, 1, cancel), &meter)?;
-        let work = meter.work();
-        let stats = stats(&work.counters, work.seconds, start.elapsed().as_secs_f64());
-        let Contribution { photons, samples, .. } = &contribution;
-        let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());
-        let image = LinearImage { width, height, pixels: pixels.collect() };
+        let input = PassInput { world: &self.world, plan: &plan, seed: self.seed, iteration: 1, cancel };
+        let pixels = iterate(&input, &meter, |Contribution { photons, samples, .. }| {
+            photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean()).collect()
+        })?;
+        let Work { counters, seconds } = meter.work();
+        let stats = stats(&counters, seconds, start.elapsed().as_secs_f64());
+        let image = LinearImage { width, height, pixels };
         Some(Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) })
     }
 
@@ -226,6 +214,25 @@ impl Session {
     fn frame_of(&self, generation: u64, image: Arc<LinearImage>, iteration: u64, stats: Stats) -> Frame {
         Frame { generation, draft: false, iteration, image, stats, plan: self.summary.clone() }
     }
+}
+
+/// Adds an iteration to the film and to the measurements; returns the refined plan where the schedule says so.
+fn commit(
+    film: &mut FilmSums,
+    statistics: &mut FilmStatistics,
+    plan: &Plan,
+    iteration: u64,
+    Contribution { photons, samples, differences }: &Contribution,
+) -> Option<Plan> {
+    rayon::join(
+        || film.commit(plan.weight(iteration), photons, samples),
+        || statistics.add(iteration, differences, samples),
+    );
+    let refined = plan.refined(iteration, statistics);
+    if refined.is_some() {
+        statistics.begin_refined();
+    }
+    refined
 }
 
 fn stats(counters: &Counters, passes: PassSeconds, seconds: f64) -> Stats {

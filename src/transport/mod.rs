@@ -43,9 +43,9 @@ pub use density::{Bandwidth, BandwidthDifference, FilmStatistics, PixelSamples};
 pub use lights::{LightSampler, PhotonEmission, ProjectionMap};
 pub use pass::{Cancel, Rows};
 pub use passes::{
-    Band, CameraBatch, CausticPhotons, Contribution, Gathered, GatheredBatch, LobeSample, PassInput, Splat,
-    camera_pass, caustic_photon_pass, gather, global_photon_pass, lobe_samples,
+    Band, CameraBatch, Contribution, Gathered, GatheredBatch, LobeSample, PassInput, camera_pass, caustic_photon_pass,
+    gather, global_photon_pass, lobe_samples,
 };
-pub use photons::{GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query};
+pub use photons::{CausticPhotons, GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query, Splat};
 pub use plan::{CausticPlan, Component, Plan, PlanItem, PlanNote, Radii, UnseenLight};
 pub use points::{Clearance, Facet, Fresnel, GlossyMis, VisiblePoint, fresnel};

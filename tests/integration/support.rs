@@ -1,16 +1,12 @@
 //! Scenes, sessions and measures that several tests use.
 
 use glam::DVec3;
-use patchlight::engine::Session;
+use patchlight::engine::{PassMeter, Session, iterate};
 use patchlight::film::LinearImage;
 use patchlight::math::Rgb;
 use patchlight::scene::{Location, SceneFile};
-use patchlight::transport::{
-    Band, Cancel, Contribution, Maps, PassInput, Plan, Rows, camera_pass, caustic_photon_pass, gather,
-    global_photon_pass,
-};
+use patchlight::transport::{Cancel, PassInput, Plan};
 use patchlight::world::{World, prepare};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -120,14 +116,5 @@ pub(crate) fn patchlight(dir: &Path, arguments: &[&str]) -> Output {
 /// Radiance from photons in one iteration of a plan, pixel by pixel.
 pub(crate) fn photon_radiance(world: &World, plan: &Plan, seed: u64, iteration: u64) -> Vec<Rgb> {
     let input = PassInput::uncancelled(world, plan, seed, iteration);
-    let global = global_photon_pass(&input).expect("never cancelled");
-    let caustic = caustic_photon_pass(&input).expect("never cancelled");
-    let maps = Maps::build(&caustic.photons, [&global.photons, &global.indirect_caustics, &global.glossy]);
-    let band = |rows: &Rows| {
-        let seen = camera_pass(&input, rows).expect("never cancelled");
-        let gathered = gather(&input, &maps, &seen).expect("never cancelled");
-        Band::new(&input, rows, seen, &gathered.points)
-    };
-    let bands: Vec<Band> = plan.bands(iteration).par_iter().map(band).collect();
-    Contribution::new(&bands, &caustic.splats, plan.camera.width).photons
+    iterate(&input, &PassMeter::default(), |contribution| contribution.photons.clone()).expect("never cancelled")
 }

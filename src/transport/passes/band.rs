@@ -1,13 +1,14 @@
 //! Results of the camera pass and the gather pass by pixel: of one band of rows, and of the whole film.
 
 use super::camera::CameraBatch;
-use super::caustic_photons::Splat;
-use super::gather::Gathered;
+use super::gathered::Gathered;
 use super::input::PassInput;
-use super::lobe_reuse::{LobeSample, lobe_samples, reuse_lobes};
+use super::lobe_reuse::{lobe_samples, reuse_lobes};
+use super::lobe_sample::LobeSample;
 use crate::math::Rgb;
 use crate::transport::density::{BandwidthDifference, PixelSamples};
 use crate::transport::pass::Rows;
+use crate::transport::photons::Splat;
 use crate::transport::photons::path_blocks::concat;
 
 /// One band's result, before neighbours reuse lobe samples.

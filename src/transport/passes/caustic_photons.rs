@@ -5,10 +5,9 @@
 
 use super::input::PassInput;
 use crate::math::{Ray, Rgb, Sampler, Stream};
-use crate::transport::counters::{Counted, Counters};
 use crate::transport::lights::emission::{self, Emission};
-use crate::transport::photons::Photon;
 use crate::transport::photons::path_blocks::{concat, path_blocks};
+use crate::transport::photons::{CausticPhotons, Photon, Splat};
 use crate::transport::plan::CausticPlan;
 use crate::transport::points::bsdf::{self, MAX_SHADING_FACTOR};
 use crate::transport::points::{SpecularEvent, Vertex, roulette};
@@ -19,32 +18,6 @@ use rayon::prelude::*;
 /// Fraction of the emitted flux below which a branch ends at random: weak photons cost as much as strong ones. Just below the 4 % that
 /// glass reflects at normal incidence.
 const WEAK_BRANCH: f32 = 0.03;
-
-/// Light that a caustic photon adds to the pixel that sees it.
-#[derive(Clone, Copy, Debug)]
-pub struct Splat {
-    /// Index of the pixel, row by row from the top.
-    pub pixel: u32,
-    /// Radiance in the mean over the pixel, W per steradian and square scene unit.
-    pub radiance: Rgb,
-}
-
-/// The photons and splats of a caustic photon pass.
-#[derive(Clone, Debug, Default)]
-pub struct CausticPhotons {
-    /// Photons for the map; empty where no density estimate needs them.
-    pub photons: Vec<Photon>,
-    /// Light for the film. Pixels that gather directly seen caustics get none.
-    pub splats: Vec<Splat>,
-    /// Work done.
-    pub counters: Counters,
-}
-
-impl Counted for CausticPhotons {
-    fn counters(&self) -> Counters {
-        self.counters
-    }
-}
 
 /// The caustic photons of an iteration, in the order of their paths; `None` when cancelled. Empty for a plan without
 /// caustics.
@@ -203,6 +176,7 @@ impl<'a> CausticTracer<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::transport::counters::Counters;
     use crate::transport::pass::Cancel;
     use crate::transport::plan::Plan;
     use crate::transport::testing::{self, lamp, quad};

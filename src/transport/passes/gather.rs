@@ -1,12 +1,12 @@
 //! The gather pass: photons to radiance, by density estimates at visible points.
 
 use super::camera::CameraBatch;
+use super::gathered::{Gathered, GatheredBatch};
 use super::input::PassInput;
 use super::interleaving::Interleaving;
 use crate::math::lanes::simd_dispatch;
 use crate::math::{Lanes, Rgb, Stream};
-use crate::transport::counters::{Counted, Counters};
-use crate::transport::density::BandwidthDifference;
+use crate::transport::counters::Counters;
 use crate::transport::density::bandwidth::WIDER;
 use crate::transport::density::disc::Disc;
 use crate::transport::density::estimate::{self, is_diffuse, is_glossy};
@@ -20,30 +20,6 @@ use arrayvec::ArrayVec;
 /// Visible points between two checks whether the pass was cancelled, about a millisecond of work. Larger blocks react later to an edit and
 /// take more of the stack; smaller ones enter vector code more often.
 const POINTS_PER_BLOCK: usize = 1024;
-
-/// Light that photons bring to a visible point.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Gathered {
-    /// Radiance that the point adds to its pixel.
-    pub radiance: Rgb,
-    /// The bandwidth difference of this radiance; 0 where it is not measured.
-    pub difference: BandwidthDifference,
-}
-
-/// The result of the gather pass for a [`CameraBatch`].
-#[derive(Clone, Debug, Default)]
-pub struct GatheredBatch {
-    /// The light at each visible point, in the order of the points.
-    pub points: Vec<Gathered>,
-    /// Work done.
-    pub counters: Counters,
-}
-
-impl Counted for GatheredBatch {
-    fn counters(&self) -> Counters {
-        self.counters
-    }
-}
 
 /// The light that the photons of these maps bring to the visible points of a batch; `None` when cancelled.
 pub fn gather(input: &PassInput, maps: &Maps, seen: &CameraBatch) -> Option<GatheredBatch> {

@@ -4,29 +4,12 @@
 //! iterations, so that the added blur vanishes.
 
 use super::input::PassInput;
+use super::lobe_sample::LobeSample;
 use crate::math::Rgb;
 use crate::transport::pass::Rows;
 use crate::transport::points::{LEAST_COS_OF_NEIGHBOURS, VisiblePoint};
 use crate::world::Lobe;
-use glam::Vec3;
 use rayon::prelude::*;
-
-/// A pixel's sample of the light in its Phong lobe.
-#[derive(Clone, Copy, Debug)]
-pub struct LobeSample {
-    /// Radiance from photons at the points that the lobe shows, as the pixel sees it.
-    pub radiance: Rgb,
-    /// Position of the point with the lobe, relative to the middle of the world.
-    position: Vec3,
-    /// Unit normal at the point.
-    normal: Vec3,
-    /// First tag of the photons on the same surface and side.
-    tag: u32,
-    /// Greatest distance of a neighbour, scene units.
-    reuse_distance: f32,
-    /// `reuse_distance` in pixels, for a surface that faces the camera.
-    window: u32,
-}
 
 /// The lobe samples of some rows, row by row, without radiance yet. `None` at edges, on textured surfaces, on patches, whose own curves
 /// are near, and where even adjacent pixels are too far; an empty list where no photons are gathered or no surface has a uniform lobe.
@@ -103,6 +86,7 @@ impl LobeSample {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
 
     /// In a row of pixels, a unit from each other on a floor.
     fn lobe(x: f32, tag: u32, reuse_distance: f32, found: f32) -> Option<LobeSample> {

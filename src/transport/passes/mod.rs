@@ -7,7 +7,9 @@
 //! | `global_photons` | the photon pass of interreflection |
 //! | `camera/` | the camera pass: direct light and visible points |
 //! | `interleaving` | points that gather irradiance for their neighbours |
+//! | `gathered` | the result of the gather pass |
 //! | `gather` | the gather pass: density estimates at visible points |
+//! | `lobe_sample` | the light that a pixel sees in its Phong lobe |
 //! | `lobe_reuse` | spatial reuse of Phong lobe samples |
 //! | `band` | one band's result, and the iteration's contribution to the film |
 
@@ -15,15 +17,19 @@ mod band;
 mod camera;
 mod caustic_photons;
 mod gather;
+mod gathered;
 mod global_photons;
 mod input;
 mod interleaving;
 mod lobe_reuse;
+mod lobe_sample;
 
 pub use band::{Band, Contribution};
 pub use camera::{CameraBatch, camera_pass};
-pub use caustic_photons::{CausticPhotons, Splat, caustic_photon_pass};
-pub use gather::{Gathered, GatheredBatch, gather};
+pub use caustic_photons::caustic_photon_pass;
+pub use gather::gather;
+pub use gathered::{Gathered, GatheredBatch};
 pub use global_photons::global_photon_pass;
 pub use input::PassInput;
-pub use lobe_reuse::{LobeSample, lobe_samples};
+pub use lobe_reuse::lobe_samples;
+pub use lobe_sample::LobeSample;

@@ -1,8 +1,8 @@
 //! Photon paths of interreflection: light that was scattered in many directions at least once before it arrives.
 
 use super::photon::Photon;
+use super::stored::GlobalPhotons;
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
-use crate::transport::counters::{Counted, Counters};
 use crate::transport::lights::PhotonEmission;
 use crate::transport::lights::emission::{self, Emission};
 use crate::transport::points::{GlossyMis, SpecularEvent, Vertex, bsdf};
@@ -11,25 +11,6 @@ use glam::{DVec2, DVec3};
 
 /// Distance of a point in front of a surface, in radii of the world.
 const OFF_SURFACE: f64 = 1e-5;
-
-/// Photons of interreflection.
-#[derive(Clone, Debug, Default)]
-pub struct GlobalPhotons {
-    /// Photons straight from a diffuse or glossy surface: their density is smooth.
-    pub photons: Vec<Photon>,
-    /// Photons that mirrors or glass sent on after a diffuse or glossy surface: indirect caustics.
-    pub indirect_caustics: Vec<Photon>,
-    /// Photons at Phong lobes, their flux times the MIS weight of photons: see [`GlossyMis`].
-    pub glossy: Vec<Photon>,
-    /// Work done.
-    pub counters: Counters,
-}
-
-impl Counted for GlobalPhotons {
-    fn counters(&self) -> Counters {
-        self.counters
-    }
-}
 
 /// Traces photon paths and stores their photons.
 pub(in crate::transport) struct GlobalPhotonTracer<'a> {

@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `photon` | a stored photon and its tag |
+//! | `stored` | the photons that the photon passes store |
 //! | `cosine_correction` | photons that arrived where the surface has another normal |
 //! | `photon_map/` | the kd-tree |
 //! | `maps` | the four maps of an iteration |
@@ -15,9 +16,10 @@ mod maps;
 pub(in crate::transport) mod path_blocks;
 pub(in crate::transport) mod photon;
 pub(in crate::transport) mod photon_map;
+mod stored;
 
 pub(in crate::transport) use cosine_correction::CosineCorrection;
-pub use global_tracer::GlobalPhotons;
 pub use maps::{MapKind, Maps, PerMap};
 pub use photon::Photon;
 pub use photon_map::{PhotonMap, Query};
+pub use stored::{CausticPhotons, GlobalPhotons, Splat};

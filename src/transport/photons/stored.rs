@@ -1,0 +1,50 @@
+//! The photons that the photon passes store.
+
+use super::photon::Photon;
+use crate::math::Rgb;
+use crate::transport::counters::{Counted, Counters};
+
+/// Light that a caustic photon adds to the pixel that sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Splat {
+    /// Index of the pixel, row by row from the top.
+    pub pixel: u32,
+    /// Radiance in the mean over the pixel, W per steradian and square scene unit.
+    pub radiance: Rgb,
+}
+
+/// The photons and splats of a caustic photon pass.
+#[derive(Clone, Debug, Default)]
+pub struct CausticPhotons {
+    /// Photons for the map; empty where no density estimate needs them.
+    pub photons: Vec<Photon>,
+    /// Light for the film. Pixels that gather directly seen caustics get none.
+    pub splats: Vec<Splat>,
+    /// Work done.
+    pub counters: Counters,
+}
+
+impl Counted for CausticPhotons {
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+/// Photons of interreflection.
+#[derive(Clone, Debug, Default)]
+pub struct GlobalPhotons {
+    /// Photons straight from a diffuse or glossy surface: their density is smooth.
+    pub photons: Vec<Photon>,
+    /// Photons that mirrors or glass sent on after a diffuse or glossy surface: indirect caustics.
+    pub indirect_caustics: Vec<Photon>,
+    /// Photons at Phong lobes, their flux times the MIS weight of photons: see [`GlossyMis`].
+    pub glossy: Vec<Photon>,
+    /// Work done.
+    pub counters: Counters,
+}
+
+impl Counted for GlobalPhotons {
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
