@@ -200,11 +200,10 @@ impl Session {
 
     /// Statistics of the rendering so far.
     pub fn stats(&self) -> Stats {
-        let distance = self.world.camera.position.distance(self.world.center);
         let error_estimate = self.error_estimate();
         Stats {
             iterations: self.film.iterations(),
-            radius: self.plan.mean_radius(distance, self.film.iterations()),
+            radius: self.plan.mean_radius(self.world.view.distance, self.film.iterations()),
             error_estimate,
             missing_light: self.missing_light(error_estimate),
             ..stats(&self.counters, self.passes, self.seconds)

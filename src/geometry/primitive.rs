@@ -52,6 +52,22 @@ impl Primitive {
         }
     }
 
+    /// The largest absolute values of the coordinates that points of the primitive are computed from, by axis; on a plane the points' own
+    /// coordinates come on top.
+    pub fn magnitude(&self) -> DVec3 {
+        let of_box = |bounds: Aabb| bounds.min.abs().max(bounds.max.abs());
+        match self {
+            Self::Quad(quad) => of_box(quad.bounds()),
+            Self::Sphere(sphere) => of_box(sphere.bounds()),
+            Self::Plane(plane) => plane.position(0.0, 0.0).abs(),
+            // Rays meet a patch in its unit space, which mixes the axes.
+            Self::Patch(patch) => {
+                let points = patch.net().points.as_flattened().iter();
+                DVec3::splat(points.fold(0.0, |largest: f64, p| largest.max(p.abs().max_element())))
+            }
+        }
+    }
+
     /// Whether the primitive stands beside a quad: no part of it is above or below the quad's inside.
     pub fn is_beside(&self, quad: &Quad) -> bool {
         match self {

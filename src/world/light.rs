@@ -1,7 +1,11 @@
 use crate::geometry::{Quad, Sphere};
 use crate::math::Rgb;
+use crate::math::float::SELF_HIT_OFFSET;
 use glam::DVec3;
 use std::f64::consts::PI;
+
+/// Distance of test points from the surface of a light, relative to the light's coordinates: beyond what rounding does not tell apart.
+const OFF_SURFACE: f64 = 8.0 * SELF_HIT_OFFSET;
 
 /// A source of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,9 +61,14 @@ impl Light {
         }
     }
 
-    /// Points that tell in which bodies the light is, this far off its surface: the center of a point light, some points of an area
-    /// light.
-    pub(super) fn test_points(&self, off_surface: f64) -> Vec<DVec3> {
+    /// A bound of the coordinates of the light's points, scene units.
+    pub fn magnitude(&self) -> f64 {
+        self.center().abs().max_element() + self.bounding_radius()
+    }
+
+    /// Points that tell in which bodies the light is, just off its surface: the center of a point light, some points of an area light.
+    pub(super) fn test_points(&self) -> Vec<DVec3> {
+        let off_surface = OFF_SURFACE * self.magnitude();
         match self {
             Self::Point { position, .. } => vec![*position],
             Self::Sphere { sphere, .. } => {

@@ -9,7 +9,9 @@
 //! | `shared_edges` | [`SharedEdges`] between the patches of an object |
 //! | `surface` | [`Surface`], the object or light of a primitive; [`SurfacePoint`], a hit as light transport reads it |
 //! | `bodies/` | bodies of glass: which of them contain a point, and which of these counts |
+//! | `view` | [`View`]: where the surfaces are that the camera sees |
 //! | `prepared` | [`World`] |
+//! | `probes` | rays that find the view of a world |
 //! | `error` | [`PrepareError`] |
 //! | `prepare` | [`prepare()`]: from a scene to a world, reusing a previous world |
 //! | `warnings` | [`warnings()`]: faults of scenes that can be rendered |
@@ -21,9 +23,11 @@ mod light;
 mod material;
 mod prepare;
 mod prepared;
+mod probes;
 mod shared_edges;
 mod surface;
 mod texture;
+mod view;
 mod warnings;
 
 pub use bodies::{Body, Contacts, Media, Origin};
@@ -36,4 +40,5 @@ pub use prepared::World;
 pub use shared_edges::SharedEdges;
 pub use surface::{Surface, SurfacePoint};
 pub use texture::Image;
+pub use view::View;
 pub use warnings::{Warning, warnings};

@@ -1,12 +1,12 @@
 use super::bodies::{self, Surroundings};
 use super::material::{Model, Relief, Source};
+use super::probes;
 use super::shared_edges::shared_edges;
 use super::texture::{self, TextureKey};
-use super::{Camera, Contacts, Image, Light, Material, PrepareError, SharedEdges, Surface, World};
+use super::{Camera, Contacts, Image, Light, Material, PrepareError, SharedEdges, Surface, View, World};
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
-use crate::math::float::SELF_HIT_OFFSET;
-use crate::math::{Aabb, Rgb};
+use crate::math::Rgb;
 use crate::scene::{self, Emitter, Location, MaterialModel, Scene, Shape, TextureUse};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -26,26 +26,12 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
     let (descriptions, mut surfaces) = surfaces(scene, &lights)?;
     let aggregate = aggregate(descriptions, previous);
     let bodies = bodies::bodies(scene, aggregate.primitives(), &mut surfaces);
-    let points = lights.iter().filter_map(|light| match light {
-        Light::Point { position, .. } => Some(*position),
-        _ => None,
-    });
-    let bounds = aggregate.bounds().union(&Aabb::around(points));
-    let center = if bounds.is_empty() { scene.camera.target } else { bounds.center() };
-    let view_distance = scene.camera.position.distance(scene.camera.target);
-    let radius = if bounds.diagonal() > 0.0 { 0.5 * bounds.diagonal() } else { view_distance.max(1.0) };
-    let largest = |p: &Primitive| {
-        let Aabb { min, max } = p.bounds();
-        min.abs().max(max.abs()).max_element()
-    };
-    let contacts = Contacts::new(aggregate.primitives(), &surfaces, |a, b| {
-        SELF_HIT_OFFSET * (largest(a).min(largest(b)) + radius)
-    });
+    let magnitudes: Vec<DVec3> = aggregate.primitives().iter().map(Primitive::magnitude).collect();
+    let contacts = Contacts::new(aggregate.primitives(), &surfaces, &magnitudes);
     let around = Surroundings { aggregate: &aggregate, surfaces: &surfaces, bodies: &bodies };
     let camera_media = around.media(scene.camera.position);
-    let off_surface = 4.0 * SELF_HIT_OFFSET * (aggregate.bounds().diagonal() + radius);
-    let light_origins = lights.iter().map(|light| around.origin(light.test_points(off_surface))).collect();
-    Ok(World {
+    let light_origins = lights.iter().map(|light| around.origin(light.test_points())).collect();
+    let mut world = World {
         contacts,
         camera_media,
         light_origins,
@@ -57,10 +43,12 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
         camera: Camera::new(&scene.camera, scene.film.width, scene.film.height),
         background: scene.render.background,
         max_bounces: scene.render.max_bounces,
-        center,
-        radius,
+        view: View::default(),
+        magnitudes,
         textures: textures.decoded,
-    })
+    };
+    world.view = probes::view(&world, scene.camera.position.distance(scene.camera.target));
+    Ok(world)
 }
 
 /// A primitive before its tree is built; for a patch, its net and whether its transform mirrors.

@@ -1,8 +1,8 @@
 use super::bodies::{Surroundings, touching};
 use super::texture::TextureKey;
-use super::{Body, Camera, Contacts, Image, Light, Material, Media, Origin, Scattering, Surface, SurfacePoint};
+use super::{Body, Camera, Contacts, Image, Light, Material, Media, Origin, Scattering, Surface, SurfacePoint, View};
 use crate::geometry::{Aggregate, Hit};
-use crate::math::float::SELF_HIT_OFFSET;
+use crate::math::float::rounding;
 use crate::math::{Ray, Rgb};
 use arrayvec::ArrayVec;
 use glam::DVec3;
@@ -36,10 +36,10 @@ pub struct World {
     pub background: Rgb,
     /// The greatest number of scattering events on a path between light and camera.
     pub max_bounces: u32,
-    /// The center of the box of all bounded surfaces and lights.
-    pub center: DVec3,
-    /// Half the diagonal of that box, in scene units; above 0.
-    pub radius: f64,
+    /// What the camera sees.
+    pub view: View,
+    /// The primitives' [magnitudes](crate::geometry::Primitive::magnitude), scene units.
+    pub(super) magnitudes: Vec<DVec3>,
     /// The decoded images, for the next world.
     pub(super) textures: Vec<(TextureKey, Arc<Image>)>,
 }
@@ -80,7 +80,8 @@ impl World {
     /// The hit on a primitive that coincides with another one at this point, and the primitive's geometric normal there.
     fn touching(&self, primitive: u32, point: &SurfacePoint) -> Option<(Hit, DVec3)> {
         let shape = &self.aggregate.primitives()[primitive as usize];
-        touching(shape, primitive, [point.position, point.n_geom], self.rounding(point.position))
+        let distance = self.rounding(point, point.hit.primitive).max(self.rounding(point, primitive));
+        touching(shape, primitive, [point.position, point.n_geom], distance)
     }
 
     /// The index in the scene of the object that a primitive belongs to; `None` for the surface of a light.
@@ -165,11 +166,83 @@ impl World {
     /// The origin of a ray that leaves a surface point in this direction: offset from the surface, to the side of the
     /// direction, by more than rounding.
     pub fn leave(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
-        point.position + point.n_geom * self.rounding(point.position).copysign(direction.dot(point.n_geom))
+        let offset = self.rounding(point, point.hit.primitive);
+        point.position + point.n_geom * offset.copysign(direction.dot(point.n_geom))
     }
 
-    /// How near to each other two surfaces at this position are that rounding does not tell apart, scene units.
-    fn rounding(&self, position: DVec3) -> f64 {
-        SELF_HIT_OFFSET * (position.abs().max_element() + self.radius)
+    /// How far rounding may move a primitive at a point along the point's normal, scene units.
+    #[inline]
+    fn rounding(&self, point: &SurfacePoint, primitive: u32) -> f64 {
+        // Points of a plane lie far beyond the point that defines it.
+        rounding(self.magnitudes[primitive as usize].max(point.position.abs()), point.n_geom)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Sampler, Stream, warp};
+    use crate::scene::{Location, SceneFile};
+    use crate::world::prepare;
+
+    /// The world of one object of this shape.
+    fn world(shape: &str) -> World {
+        let text = format!(
+            "version = 1\n[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 40
+            [[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [1, 1, 1]
+            [[object]]\nname = \"o\"\nmaterial = \"m\"\n{shape}\n"
+        );
+        let file = SceneFile::parse(&text, Location::Unsaved).expect("the scene is valid");
+        prepare(&file.scene, &file.location, None).expect("the scene can be prepared")
+    }
+
+    /// Points of flat and convex surfaces near the origin, whose primitives reach far: rays that leave them to the outside meet nothing, and
+    /// begin no farther off than this.
+    fn assert_leaves(shape: &str, from: DVec3, farthest: f64) {
+        let world = world(shape);
+        let mut hits = 0;
+        for k in 0..2000 {
+            let mut sampler = Sampler::new(1, Stream::Probe, 0, k);
+            let target = 0.3 * warp::uniform_sphere(sampler.next_2d());
+            let ray = Ray::new(from, (target - from).normalize());
+            let Some(hit) = world.closest_hit(&ray) else { continue };
+            let point = world.surface_point(&ray, hit);
+            let direction = warp::uniform_sphere(sampler.next_2d());
+            let direction = direction * direction.dot(point.n_side()).signum();
+            let left = Ray::new(world.leave(&point, direction), direction);
+            assert!(
+                left.origin.distance(point.position) <= farthest,
+                "{shape}: {}",
+                left.origin.distance(point.position)
+            );
+            assert_eq!(world.closest_hit(&left), None, "{shape}: leaves {} towards {direction}", point.position);
+            hits += 1;
+        }
+        assert!(hits > 1000, "{shape}: {hits} hits");
+    }
+
+    #[test]
+    fn rays_leave_surfaces_of_any_size() {
+        let above = DVec3::new(0.2, 3.0, 0.1);
+        for size in [1.0, 1e3, 1e6, 1e9f64] {
+            let half = 0.5 * size;
+            let quad = |corner: [f64; 3], u: [f64; 3], v: [f64; 3]| {
+                format!("type = \"quad\"\ncorner = {corner:?}\nedge_u = {u:?}\nedge_v = {v:?}")
+            };
+            let level = quad([-half, 0.1, half], [size, 0.0, 0.0], [0.0, 0.0, -size]);
+            assert_leaves(&level, above, 1e-11 * (0.1 + 1e-3 * size));
+            let tilted = quad([-half, -0.3 * half, half], [size, 0.3 * size, 0.0], [0.0, 0.0, -size]);
+            assert_leaves(&tilted, above, 1e-11 * size);
+            let ball = format!("type = \"sphere\"\ncenter = [0, {:?}, 0]\nradius = {size:?}", -size);
+            assert_leaves(&ball, above, 1e-10 * size);
+            let plane = |point: [f64; 3]| format!("type = \"plane\"\npoint = {point:?}\nnormal = [0.6, 0.8, 0]");
+            assert_leaves(&plane([0.8 * size, -0.6 * size, size]), above, 3e-11 * size);
+            let row = |i: i32| {
+                let at = |k: i32| (f64::from(k) / 3.0 - 0.5) * size;
+                (0..4).map(|j| [at(i), 0.3 * at(i), -at(j)]).collect::<Vec<_>>()
+            };
+            let rows: Vec<_> = (0..4).map(row).collect();
+            assert_leaves(&format!("type = \"bezier\"\npatches = [{rows:?}]"), above, 1e-10 * size);
+        }
     }
 }

@@ -9,6 +9,7 @@ mod cli;
 mod closed_forms;
 mod components;
 mod engine;
+mod far_away;
 mod far_lamps;
 mod glass;
 mod gloss;

@@ -91,7 +91,7 @@ fn cardioid_cusp() {
     let world = world(&text);
     let mut along_axis = [0.0f64; 200];
     for photon in caustic_photons(&world, 8) {
-        let p = photon.position.as_dvec3() + world.center;
+        let p = photon.position.as_dvec3() + world.view.origin;
         let from_light = DVec3::new(p.x, 0.0, p.z).z;
         if p.x.abs() < 0.01 && from_light.abs() < 1.0 {
             along_axis[((1.0 - from_light) * 100.0) as usize] += f64::from(photon.flux.x);

@@ -7,10 +7,11 @@ use crate::transport::photons::{CosineCorrection, Photon, Query};
 use crate::transport::points::VisiblePoint;
 use crate::transport::points::bsdf::MAX_SHADING_FACTOR;
 use crate::world::{SharedEdges, Surface, World};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
-/// Least radius of a disc, in radii of the world: a smaller one would lose its photons to rounding.
-const LEAST_RADIUS: f64 = 1e-6;
+/// Least radius of a disc, relative to the largest coordinate of its position: a smaller one would lose its photons to rounding. Positions
+/// have an error of up to `f32::EPSILON / 2` in each coordinate, photons must lie within a quarter of the radius of the tangent plane.
+const LEAST_RADIUS: f64 = 16.0 * f32::EPSILON as f64;
 /// Least sine of the angle between a surface's derivatives. At a degenerate corner of a patch they are parallel up to rounding and span no
 /// parallelogram.
 const LEAST_SINE: f64 = 1e-9;
@@ -40,7 +41,7 @@ impl<'v> Disc<'v> {
     ) -> Option<Self> {
         let primitive = &world.aggregate.primitives()[point.primitive as usize];
         let Surface::Object { shared, .. } = world.surfaces[point.primitive as usize] else { return None };
-        let radius = radius.max(LEAST_RADIUS * world.radius);
+        let radius = radius.max(least_radius(point.position));
         let visible = polygon.filter(|polygon| polygon.hides_within(radius));
         let (slope, integral) = match visible {
             None => edge_kernel(primitive, point, shared, radius, linear),
@@ -72,12 +73,18 @@ impl<'v> Disc<'v> {
     }
 }
 
+/// The least radius of a disc at this position, scene units; its square is above 0 in `f32`.
+#[inline]
+fn least_radius(position: Vec3) -> f64 {
+    (LEAST_RADIUS * f64::from(position.abs().max_element())).max(f64::from(f32::MIN_POSITIVE).sqrt())
+}
+
 /// [`CosineCorrection::curvature`] of a disc.
 #[inline]
 fn curvature(world: &World, primitive: &Primitive, point: &VisiblePoint, radius: f64) -> f32 {
     match primitive {
         Primitive::Sphere(sphere) => {
-            let outward = point.position.as_dvec3() + world.center - sphere.center;
+            let outward = point.position.as_dvec3() + world.view.origin - sphere.center;
             let is_outside = outward.dot(point.n_side.as_dvec3()) > 0.0;
             if is_outside { (radius / sphere.radius) as f32 } else { 0.0 }
         }
@@ -134,7 +141,6 @@ fn plane_axes(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
 mod tests {
     use super::*;
     use crate::transport::testing::{self, quad, sphere, visible_point};
-    use glam::Vec3;
     use std::f64::consts::FRAC_PI_2;
 
     /// The disc at these parameters of the scene's first primitive.
@@ -190,7 +196,7 @@ mod tests {
     fn spheres_curve_away_on_their_outside() {
         let world = testing::world(&sphere("ball", [0.0; 3], 2.0, "grey"));
         let curvature = |n_side| {
-            let position = (DVec3::new(0.0, 2.0, 0.0) - world.center).as_vec3();
+            let position = (DVec3::new(0.0, 2.0, 0.0) - world.view.origin).as_vec3();
             let point = VisiblePoint { position, n_side, ..visible_point() };
             Disc::new(&world, &point, None, 0.5, false).expect("an object").correction.curvature
         };
@@ -200,10 +206,11 @@ mod tests {
     #[test]
     fn a_disc_reads_the_tags_of_its_point_and_has_a_least_radius() {
         let world = floor();
-        let point = VisiblePoint { tag: 512, photon_bounces: 7, ..visible_point() };
+        let position = Vec3::new(0.25, 0.0, -0.5);
+        let point = VisiblePoint { position, tag: 512, photon_bounces: 7, ..visible_point() };
         let query = Disc::new(&world, &point, None, 0.0, false).expect("an object").query;
         assert_eq!((query.tag_start, query.tag_span), (512, 8), "0 to 7 scattering events");
-        assert!((f64::from(query.radius) / (LEAST_RADIUS * world.radius) - 1.0).abs() < 1e-6);
+        assert!((f64::from(query.radius) / (0.5 * LEAST_RADIUS) - 1.0).abs() < 1e-6);
     }
 
     #[test]

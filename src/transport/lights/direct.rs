@@ -33,20 +33,31 @@ struct LightSample {
     pdf: Option<f64>,
 }
 
-/// Least distance at which lights shine, in radii of the scene: so the light of a lamp on a surface stays finite.
-const NEAREST: f64 = 1e-4;
+/// Least distance at which lights shine, in pixel footprints: so the light of a lamp on a surface stays finite. Of the samples of a pixel
+/// with a nearer lamp, one in some thousand would find most of its light.
+const NEAREST: f64 = 0.01;
 /// End of a shadow ray over the distance to the sampled point of a light: short of the light's own surface, which would hide the point.
 const SHADOW_RAY_END: f64 = 1.0 - 1e-9;
 
+/// The camera path that ends at a vertex.
+#[derive(Clone, Copy)]
+pub(in crate::transport) struct SeenBy<'a> {
+    /// The media at the vertex, on the side that the path came from.
+    pub(in crate::transport) media: &'a Media,
+    /// The last Phong lobe of the path.
+    pub(in crate::transport) viewing_lobe: Option<ViewingLobe>,
+    /// Length of the path, scene units.
+    pub(in crate::transport) length: f64,
+}
+
 impl DirectLight<'_> {
-    /// Radiance from a vertex in these media towards `wo` of light that comes straight from the lights, times the MIS weight of camera
-    /// paths.
+    /// Radiance from a vertex towards the camera path that sees it, of light that comes straight from the lights, times the MIS weight of
+    /// camera paths.
     #[inline]
     pub(in crate::transport) fn radiance(
         &self,
         vertex: &Vertex,
-        media: &Media,
-        viewing_lobe: Option<ViewingLobe>,
+        seen_by: SeenBy,
         sampler: &mut Sampler,
         counters: &mut Counters,
     ) -> Rgb {
@@ -54,7 +65,7 @@ impl DirectLight<'_> {
         // A number is drawn only where lights are drawn.
         let u = if self.light_sampler.draws() { sampler.next_1d() } else { 0.0 };
         self.light_sampler.sample(vertex, u, |light, weight| {
-            radiance += weight * self.of_light(light, vertex, media, viewing_lobe, sampler, counters);
+            radiance += weight * self.of_light(light, vertex, seen_by, sampler, counters);
         });
         radiance
     }
@@ -63,12 +74,12 @@ impl DirectLight<'_> {
         &self,
         light: usize,
         vertex: &Vertex,
-        media: &Media,
-        viewing_lobe: Option<ViewingLobe>,
+        seen_by: SeenBy,
         sampler: &mut Sampler,
         counters: &mut Counters,
     ) -> Rgb {
-        let sample = sample_light(self.world, &self.world.lights[light], vertex.point.position, sampler);
+        let nearest = NEAREST * self.world.camera.footprint(seen_by.length);
+        let sample = sample_light(&self.world.lights[light], vertex.point.position, nearest, sampler);
         let Some(sample) = sample else { return Rgb::ZERO };
         let (cos_side, cos) = (sample.wi.dot(vertex.n_side), sample.wi.dot(vertex.n_shade));
         if cos_side <= 0.0 || cos <= 0.0 {
@@ -79,7 +90,7 @@ impl DirectLight<'_> {
             pdf / (pdf + bsdf::pdf_glossy(&vertex.scattering, vertex.n_shade, vertex.wo, sample.wi))
         });
         let reflected = bsdf::eval_diffuse(&vertex.scattering) + glossy * balance as f32;
-        let seen = viewing_lobe.map(|lobe| MisVertex::new(lobe, vertex, sample.wi));
+        let seen = seen_by.viewing_lobe.map(|lobe| MisVertex::new(lobe, vertex, sample.wi));
         let weight = self.camera_weight(light, sample.position, seen);
         let radiance = reflected * sample.weight * (weight * cos) as f32;
         if radiance == Rgb::ZERO {
@@ -91,7 +102,7 @@ impl DirectLight<'_> {
         if self.world.aggregate.occluded(&shadow_ray) {
             return Rgb::ZERO;
         }
-        radiance * self.world.transmittance(media, sample.position.distance(vertex.point.position))
+        radiance * self.world.transmittance(seen_by.media, sample.position.distance(vertex.point.position))
     }
 
     /// The MIS weight of camera paths, 0 to 1, for light that a vertex scatters from a point of a light to the lobe that shows the vertex;
@@ -105,12 +116,13 @@ impl DirectLight<'_> {
     }
 }
 
-fn sample_light(world: &World, light: &Light, from: DVec3, sampler: &mut Sampler) -> Option<LightSample> {
+/// Samples a point of a light, which shines at a point `from` as if it were at least the distance `nearest` away; `None` where it does not
+/// shine.
+fn sample_light(light: &Light, from: DVec3, nearest: f64, sampler: &mut Sampler) -> Option<LightSample> {
     match light {
         Light::Point { position, intensity } => {
             let offset = *position - from;
             let distance = offset.length();
-            let nearest = NEAREST * world.radius;
             let weight = *intensity / distance.max(nearest).powi(2) as f32;
             (distance > 0.0).then(|| LightSample { position: *position, wi: offset / distance, weight, pdf: None })
         }
@@ -133,7 +145,7 @@ fn sample_light(world: &World, light: &Light, from: DVec3, sampler: &mut Sampler
             if cos <= 0.0 {
                 return None;
             }
-            let pdf = distance.max(NEAREST * world.radius).powi(2) / (cos * quad.area());
+            let pdf = distance.max(nearest).powi(2) / (cos * quad.area());
             Some(LightSample { position, wi, weight: *radiance / pdf as f32, pdf: Some(pdf) })
         }
     }
@@ -163,17 +175,15 @@ mod tests {
     use crate::geometry::Quad;
     use crate::math::chi_square::assert_has_density;
     use crate::math::{Stream, octahedral};
-    use crate::transport::testing;
     use std::f64::consts::PI;
 
     /// Directions over the sphere towards a light that fills much of it, against [`pdf_light`] where a ray in that direction meets it.
     fn assert_samples(light: &Light, meet: impl Fn(&Ray) -> Option<(f64, DVec3)>) {
-        let world = testing::world("");
         let from = DVec3::new(0.1, 0.2, -0.1);
         let pdf =
             |wi: DVec3| meet(&Ray::new(from, wi)).map_or(0.0, |(t, normal)| pdf_light(light, from, wi, t, normal));
         let sample = |sampler: &mut Sampler| {
-            let LightSample { position, wi, weight, pdf: sampled } = sample_light(&world, light, from, sampler)?;
+            let LightSample { position, wi, weight, pdf: sampled } = sample_light(light, from, 0.0, sampler)?;
             let (t, normal) = meet(&Ray::new(from, wi)).unwrap_or(((position - from).length(), -wi));
             assert!(position.distance(from + t * wi) < 1e-6, "the position is where the ray arrives");
             let sampled = sampled.expect("an area light");
@@ -199,12 +209,20 @@ mod tests {
     }
 
     #[test]
+    fn lamps_shine_as_if_from_the_least_distance() {
+        let light = Light::Point { position: DVec3::new(0.0, 1e-9, 0.0), intensity: Rgb::ONE };
+        let weight = |nearest: f64| {
+            let mut sampler = Sampler::new(1, Stream::Camera, 0, 0);
+            sample_light(&light, DVec3::ZERO, nearest, &mut sampler).expect("it shines").weight.x
+        };
+        assert!((weight(1e-3) / 1e6 - 1.0).abs() < 1e-5 && (weight(0.0) / 1e18 - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
     fn a_quad_does_not_shine_backwards() {
         let quad = Quad::new(DVec3::new(-0.5, 1.0, -0.5), DVec3::Z, DVec3::X);
         let light = Light::Quad { quad, radiance: Rgb::ONE };
         let mut sampler = Sampler::new(1, Stream::Camera, 0, 0);
-        assert!(
-            quad.normal().y > 0.0 && sample_light(&testing::world(""), &light, DVec3::ZERO, &mut sampler).is_none()
-        );
+        assert!(quad.normal().y > 0.0 && sample_light(&light, DVec3::ZERO, 0.0, &mut sampler).is_none());
     }
 }

@@ -1,16 +1,17 @@
 //! Paths as they leave a light.
 
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, octahedral, warp};
-use crate::world::{Light, World};
+use crate::world::Light;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Least distance of a hit from the light where a ray begins, in radii of the world: rounding must not let the ray hit its own light.
+/// Least distance of a hit from the light where a ray begins, relative to the light's coordinates: rounding must not let the ray hit its
+/// own light.
 const LEAST_DISTANCE: f64 = 1e-9;
 
-/// A ray that leaves a point of a light.
-pub(in crate::transport) fn ray_from_light(world: &World, origin: DVec3, direction: DVec3) -> Ray {
-    Ray { t_min: LEAST_DISTANCE * world.radius, ..Ray::new(origin, direction) }
+/// A ray that leaves a point of this light.
+pub(in crate::transport) fn ray_from_light(light: &Light, origin: DVec3, direction: DVec3) -> Ray {
+    Ray { t_min: LEAST_DISTANCE * light.magnitude(), ..Ray::new(origin, direction) }
 }
 
 /// The first ray of a light path.

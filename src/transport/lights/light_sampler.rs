@@ -35,7 +35,7 @@ struct Columns {
 impl LightSampler {
     /// The sampler for the lights of a world.
     pub(in crate::transport) fn new(world: &World) -> Self {
-        Self::of(&world.lights, world.center)
+        Self::of(&world.lights, world.view.origin)
     }
 
     fn of(lights: &[Light], center: DVec3) -> Self {

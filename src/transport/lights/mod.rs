@@ -18,7 +18,7 @@ mod photon_emission;
 mod projection_map;
 mod small_targets;
 
-pub(in crate::transport) use direct::DirectLight;
+pub(in crate::transport) use direct::{DirectLight, SeenBy};
 pub use light_sampler::LightSampler;
 pub use photon_emission::PhotonEmission;
 pub use projection_map::ProjectionMap;

@@ -75,6 +75,6 @@ impl PhotonEmission {
 /// The cone in which the light sees what the camera looks at; `None` if that surrounds the light.
 fn view_cone(world: &World, light: &Light) -> Option<Option<Cone>> {
     let ray = world.camera.ray(0.5 * DVec2::new(world.camera.width.into(), world.camera.height.into()));
-    let distance = world.aggregate.closest_hit(&ray).map_or(world.camera.position.distance(world.center), |hit| hit.t);
+    let distance = world.aggregate.closest_hit(&ray).map_or(world.view.distance, |hit| hit.t);
     Cone::around(ray.at(distance) - light.center(), VIEW * distance + light.bounding_radius()).map(Some)
 }

@@ -227,7 +227,7 @@ impl Probes<'_> {
         if origin.normal.is_some_and(|normal| normal.dot(direction) <= 0.0) {
             return false;
         }
-        let ray = emission::ray_from_light(self.world, origin.position, direction);
+        let ray = emission::ray_from_light(self.light, origin.position, direction);
         self.world.aggregate.closest_hit(&ray).is_some_and(|hit| is_aim(hit.primitive))
     }
 }

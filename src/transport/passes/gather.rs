@@ -291,7 +291,7 @@ mod tests {
     fn photons(world: &World, bounces: u32) -> Vec<Photon> {
         let at = |k: u32| 2.0 * (f64::from(k) + 0.5) / f64::from(SIDE) - 1.0;
         let photon = |k: u32| Photon {
-            position: (DVec3::new(at(k % SIDE), 0.0, at(k / SIDE)) - world.center).as_vec3(),
+            position: (DVec3::new(at(k % SIDE), 0.0, at(k / SIDE)) - world.view.origin).as_vec3(),
             flux: IRRADIANCE * 4.0 / (SIDE * SIDE) as f32,
             wi: Vec3::Y,
             cos: 1.0,
@@ -303,7 +303,7 @@ mod tests {
     /// The floor at u, v = 0.5, of albedo 0.5, for a camera path of throughput 0.5.
     fn point(world: &World, u: f64) -> VisiblePoint {
         VisiblePoint {
-            position: (DVec3::new(2.0 * u - 1.0, 0.0, 0.0) - world.center).as_vec3(),
+            position: (DVec3::new(2.0 * u - 1.0, 0.0, 0.0) - world.view.origin).as_vec3(),
             uv: DVec2::new(u, 0.5),
             tag: photon::tag(0, true, 0),
             photon_bounces: 3,

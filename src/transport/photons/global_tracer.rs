@@ -9,8 +9,8 @@ use crate::transport::points::{GlossyMis, SpecularEvent, Vertex, bsdf};
 use crate::world::{Lobe, Media, Surface, World};
 use glam::{DVec2, DVec3};
 
-/// Distance of a point in front of a surface, in radii of the world.
-const OFF_SURFACE: f64 = 1e-5;
+/// Distance of a point in front of a surface, relative to the coordinates of a photon: above the rounding of `f32`.
+const OFF_SURFACE: f32 = 1e-5;
 
 /// Traces photon paths and stores their photons.
 pub(in crate::transport) struct GlobalPhotonTracer<'a> {
@@ -53,8 +53,10 @@ pub(in crate::transport) fn arrivals_of_path(
     let path = PhotonPath { was_scattered: true, ..path };
     tracer.follow(path, &mut sampler);
     let GlobalPhotons { photons, indirect_caustics, .. } = tracer.stored;
-    let in_front =
-        |photon: &Photon| world.center + photon.position.as_dvec3() + OFF_SURFACE * world.radius * photon.wi.as_dvec3();
+    let in_front = |photon: &Photon| {
+        let offset = OFF_SURFACE * photon.position.abs().max_element();
+        world.view.origin + photon.position.as_dvec3() + (offset * photon.wi).as_dvec3()
+    };
     photons.iter().chain(&indirect_caustics).map(in_front).collect()
 }
 
@@ -79,7 +81,7 @@ impl<'a> GlobalPhotonTracer<'a> {
     fn start(&mut self, light: usize, path_count: u64, sampler: &mut Sampler) -> Option<PhotonPath> {
         self.stored.counters.global_paths += 1;
         let Emission { origin, direction, flux } = self.emissions[light].emit(&self.world.lights[light], sampler)?;
-        let ray = emission::ray_from_light(self.world, origin, direction);
+        let ray = emission::ray_from_light(&self.world.lights[light], origin, direction);
         Some(PhotonPath {
             light,
             origin,

@@ -6,7 +6,7 @@ use glam::Vec3;
 /// Flux that arrived at a point of a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Photon {
-    /// Position relative to the middle of the world, where `f32` has 24 bits for the size of the scene.
+    /// Position relative to [`View::origin`](crate::world::View::origin), about which `f32` has 24 bits for what the camera sees.
     pub position: Vec3,
     /// Flux, W.
     pub flux: Rgb,
@@ -23,7 +23,7 @@ impl Photon {
     #[inline]
     pub(in crate::transport) fn arrived(world: &World, vertex: &Vertex, flux: Rgb, bounces: u32) -> Self {
         Self {
-            position: (vertex.point.position - world.center).as_vec3(),
+            position: (vertex.point.position - world.view.origin).as_vec3(),
             flux,
             wi: vertex.wo.as_vec3(),
             // Rounding must not make it 0: density estimates divide by it.

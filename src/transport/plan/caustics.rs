@@ -2,7 +2,7 @@
 
 use super::notes::{Notes, PlanItem};
 use super::paths::{allocate, of_pixels, power};
-use super::radii::CAUSTIC_RADIUS;
+use super::radii::{CAUSTIC_RADIUS, blur};
 use super::radius::MAX_SPHERE_FRACTION;
 use super::render_plan::{CausticPlan, Plan};
 use crate::geometry::Primitive;
@@ -55,8 +55,8 @@ pub(super) fn plan(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
 
 /// Whether any light is so small that its caustics may be sharper than the discs.
 fn may_be_sharp(world: &World) -> bool {
-    let distance = world.camera.position.distance(world.center).max(world.radius);
-    world.lights.iter().any(|light| light.bounding_radius() < CAUSTIC_RADIUS * world.camera.footprint(distance))
+    let footprint = world.camera.footprint(world.view.distance);
+    world.lights.iter().any(|light| blur(world, light) < CAUSTIC_RADIUS * footprint)
 }
 
 fn plan_seen_indirectly(world: &World, notes: &mut Notes) -> bool {

@@ -1,13 +1,13 @@
 //! Radii of density estimates after one full iteration, before anything was measured.
 
-use crate::world::World;
+use crate::world::{Light, World};
 
 /// Radius for caustics that may be sharp, pixel footprints: a smaller disc holds too few photons of the first iterations, a larger one
 /// blurs what a pixel resolves.
 pub(super) const CAUSTIC_RADIUS: f64 = 2.0;
 /// Radius for caustics of large lights, pixel footprints: such caustics are smooth, so discs may hold more photons.
 const SMOOTH_CAUSTIC_RADIUS: f64 = 4.0;
-/// Radius of a light, in radii of the world, from which on its caustics count as smooth.
+/// Blur of a light's shadows, in radii of the view, from which on its caustics count as smooth.
 const LARGE_LIGHT: f64 = 0.1;
 /// Radius for interreflection far from other objects, pixel footprints: interreflection is smooth there.
 const GLOBAL_RADIUS: f64 = 24.0;
@@ -23,8 +23,9 @@ pub(super) const GLOSSY_RADIUS: f64 = 6.0;
 /// Distance up to which neighbours reuse each other's lobe samples, pixel footprints. Measured: with 3 and 6 the error is 1.09 and
 /// 0.96 times as great in a room of gloss.
 const REUSE_DISTANCE: f64 = 4.0;
-/// Greatest radius, in radii of the world: a wider disc would mix the light of different regions of the scene.
-const LARGEST_RADIUS: f64 = 0.15;
+/// Greatest radius, over the size of the region in view if it were as far away: a wider disc would mix the light of
+/// different parts of the region.
+const LARGEST_RADIUS: f64 = 0.13;
 
 /// Radius for interreflection in a draft, pixel footprints of the draft.
 pub(super) const DRAFT_RADIUS: f64 = 16.0;
@@ -32,8 +33,8 @@ pub(super) const DRAFT_RADIUS: f64 = 16.0;
 const DRAFT_GLOSSY: f64 = 0.75;
 /// Distance up to which neighbours in a draft reuse each other's lobe samples, pixel footprints: adjacent pixels only.
 const DRAFT_REUSE_DISTANCE: f64 = 1.5;
-/// Greatest radius of a draft, in radii of the world: a draft has fewer photons and may blur more.
-const DRAFT_LARGEST_RADIUS: f64 = 0.2;
+/// Greatest radius of a draft, as [`LARGEST_RADIUS`]: a draft has fewer photons and may blur more.
+const DRAFT_LARGEST_RADIUS: f64 = 0.18;
 
 /// Radii of density estimates after one full iteration, in pixel footprints except for `largest`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,15 +55,21 @@ pub struct Radii {
     pub glossy: f64,
     /// Distance up to which neighbours reuse each other's lobe samples.
     pub reuse_distance: f64,
-    /// Greatest radius, in radii of the world.
+    /// Greatest radius, over the size of the region in view if it were as far away.
     pub largest: f64,
+}
+
+/// Width of the blur at the edges of a light's shadows in view, scene units: as wide as the light, less if the light is farther from what
+/// the camera sees than the camera is.
+pub(super) fn blur(world: &World, light: &Light) -> f64 {
+    let near = world.view.distance.max(world.view.radius());
+    light.bounding_radius() * near / light.center().distance(world.view.center).max(near)
 }
 
 impl Radii {
     /// The radii for the lights of a world.
     pub(super) fn new(world: &World) -> Self {
-        let least = LARGE_LIGHT * world.radius;
-        let are_large = world.lights.iter().all(|light| light.bounding_radius() >= least);
+        let are_large = world.lights.iter().all(|light| blur(world, light) >= LARGE_LIGHT * world.view.radius());
         Self {
             caustic: if are_large { SMOOTH_CAUSTIC_RADIUS } else { CAUSTIC_RADIUS },
             least_caustic: CAUSTIC_RADIUS,

@@ -1,7 +1,7 @@
 //! The radius of the density estimate at a point in an iteration.
 //!
 //! `r_i(x) = min(min(R(x) max(s_i, 1), r_max(x)) min(s_i, 1), r_near(x))`: the radius `R(x)` after one full iteration, the factor `s_i` of
-//! the schedule or, once measured, of the bandwidth at the pixel, and the greatest radius `r_max(x)` that the surface and the world allow.
+//! the schedule or, once measured, of the bandwidth at the pixel, and the greatest radius `r_max(x)` that the surface and the film allow.
 //! `r_max(x)` applies before the radius shrinks, so that it shrinks everywhere: otherwise bias would stay. `r_near(x)` limits wide discs of
 //! caustics near other objects, to no less than the radius of sharp caustics; a radius that has shrunk below it goes on shrinking.
 
@@ -31,6 +31,8 @@ pub(in crate::transport) struct IterationRadii<'a> {
     world: &'a World,
     /// The factor `s_i` of the schedule.
     shrink: f64,
+    /// The greatest radius, pixel footprints.
+    largest: f64,
 }
 
 impl IterationRadii<'_> {
@@ -53,7 +55,7 @@ impl IterationRadii<'_> {
             _ => f64::MAX,
         };
         let unshrunk = radii.unshrunk(kind, point) * factor.max(1.0);
-        let radius = unshrunk.min(radii.largest * self.world.radius).min(limit) * factor.min(1.0);
+        let radius = unshrunk.min(self.largest * footprint).min(limit) * factor.min(1.0);
         if kind == MapKind::Caustic { radii.limited_caustic(radius, footprint, point.clearance) } else { radius }
     }
 }
@@ -90,7 +92,8 @@ impl Radii {
 impl Plan {
     /// The radii of an iteration in this world.
     pub(in crate::transport) fn radii_of<'a>(&'a self, world: &'a World, iteration: u64) -> IterationRadii<'a> {
-        IterationRadii { plan: self, world, shrink: self.shrink(iteration) }
+        let largest = self.radii.largest * world.view.region / self.camera.footprint(1.0);
+        IterationRadii { plan: self, world, shrink: self.shrink(iteration), largest }
     }
 
     /// The factor of radii in an iteration before the first refinement.

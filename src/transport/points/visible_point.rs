@@ -7,7 +7,7 @@ use glam::{DVec2, Vec3};
 pub struct VisiblePoint {
     /// Index of the pixel, row by row from the top of the film.
     pub pixel: u32,
-    /// Position relative to the middle of the world.
+    /// Position relative to [`View::origin`](crate::world::View::origin).
     pub position: Vec3,
     /// Geometric unit normal on the seen side.
     pub n_side: Vec3,
@@ -56,7 +56,7 @@ pub struct Facet {
     pub albedo: Rgb,
     /// First tag of the photons on the same surface and side.
     pub tag: u32,
-    /// Position relative to the middle of the world.
+    /// Position relative to [`View::origin`](crate::world::View::origin).
     pub position: Vec3,
 }
 

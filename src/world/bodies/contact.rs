@@ -1,12 +1,16 @@
 use super::crossings::point_of;
 use crate::geometry::{Hit, Primitive};
 use crate::math::Ray;
+use crate::math::float::SELF_HIT_OFFSET;
 use crate::world::Surface;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
 /// Points along each side of a surface at which its distance to another one is tested.
 const TESTED: usize = 8;
+/// How near surfaces are that may be in contact, relative to their coordinates: no nearer than a ray starts off a surface that it leaves,
+/// else the ray would miss the second surface.
+const TOUCHING: f64 = 2.0 * SELF_HIT_OFFSET;
 
 /// For surfaces of glass, the surfaces that coincide with them over an area, up to rounding.
 ///
@@ -17,12 +21,10 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// The contacts of all surfaces of glass. `distance` is how near two primitives are where rounding does not tell them apart.
-    pub(in crate::world) fn new(
-        primitives: &[Primitive],
-        surfaces: &[Surface],
-        distance: impl Fn(&Primitive, &Primitive) -> f64,
-    ) -> Self {
+    /// The contacts of all surfaces of glass, of primitives with these magnitudes.
+    pub(in crate::world) fn new(primitives: &[Primitive], surfaces: &[Surface], magnitudes: &[DVec3]) -> Self {
+        // At least the rounding along any normal.
+        let rounding = |k: u32| TOUCHING * magnitudes[k as usize].length();
         let mut contacts = Self::default();
         for (a, surface) in (0..).zip(surfaces) {
             let Surface::Object { object, body: Some(_), .. } = surface else { continue };
@@ -37,7 +39,7 @@ impl Contacts {
                     continue;
                 }
                 let [p, q] = [a, b].map(|k: u32| &primitives[k as usize]);
-                if touch(p, q, distance(p, q)) {
+                if touch(p, q, rounding(a).max(rounding(b))) {
                     contacts.of.entry(a).or_default().push(b);
                     if is_other_glass {
                         contacts.of.entry(b).or_default().push(a);

@@ -5,7 +5,7 @@ use super::clearance::clearance;
 use super::pixel::Pixel;
 use crate::geometry::Hit;
 use crate::math::{Ray, Rgb, Sampler};
-use crate::transport::lights::{DirectLight, direct};
+use crate::transport::lights::{DirectLight, SeenBy, direct};
 use crate::transport::photons::photon;
 use crate::transport::plan::Plan;
 use crate::transport::points::{
@@ -127,8 +127,8 @@ impl<'a> CameraTracer<'a> {
         }
         let mut radiance = Rgb::ZERO;
         if vertex.scatters() && self.plan.finds_direct_light {
-            let direct =
-                self.direct.radiance(&vertex, &branch.media, branch.viewing_lobe, sampler, &mut self.batch.counters);
+            let seen_by = SeenBy { media: &branch.media, viewing_lobe: branch.viewing_lobe, length: branch.distance };
+            let direct = self.direct.radiance(&vertex, seen_by, sampler, &mut self.batch.counters);
             radiance = branch.throughput * direct;
         }
         // A texture that is black here may not be black elsewhere in the pixel.
@@ -146,7 +146,7 @@ impl<'a> CameraTracer<'a> {
                 normal: vertex.n_shade.as_vec3(),
                 albedo: vertex.scattering.albedo,
                 tag: photon::tag(vertex.object, vertex.point.front, 0),
-                position: (vertex.point.position - self.world.center).as_vec3(),
+                position: (vertex.point.position - self.world.view.origin).as_vec3(),
             };
             pixel.add(facet, vertex.n_shade != vertex.n_side);
         }
@@ -158,7 +158,7 @@ impl<'a> CameraTracer<'a> {
         VisiblePoint {
             pixel: pixel.index,
             clearance: wanted.map_or(Clearance::FREE, |limits| clearance(self.world, vertex, limits)),
-            position: (vertex.point.position - self.world.center).as_vec3(),
+            position: (vertex.point.position - self.world.view.origin).as_vec3(),
             n_side: vertex.n_side.as_vec3(),
             n_shade: vertex.n_shade.as_vec3(),
             wo: vertex.wo.as_vec3(),
