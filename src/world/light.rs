@@ -44,6 +44,7 @@ impl Light {
     }
 
     /// The center of the light.
+    #[inline]
     pub fn center(&self) -> DVec3 {
         match self {
             Self::Point { position, .. } => *position,
@@ -53,6 +54,7 @@ impl Light {
     }
 
     /// The radius of a ball around the center that holds the light, in scene units.
+    #[inline]
     pub fn bounding_radius(&self) -> f64 {
         match self {
             Self::Point { .. } => 0.0,
@@ -62,6 +64,7 @@ impl Light {
     }
 
     /// A bound of the coordinates of the light's points, scene units.
+    #[inline]
     pub fn magnitude(&self) -> f64 {
         self.center().abs().max_element() + self.bounding_radius()
     }

@@ -5,17 +5,20 @@ use glam::DVec3;
 pub(super) struct Cubic(pub(super) [DVec3; 4]);
 
 /// `(1 - t) a + t b`, exact at both ends.
+#[inline]
 fn mix(a: DVec3, b: DVec3, t: f64) -> DVec3 {
     (1.0 - t) * a + t * b
 }
 
 impl Cubic {
     /// The point at `t`.
+    #[inline]
     pub(super) fn eval(&self, t: f64) -> DVec3 {
         self.derivatives(t)[0]
     }
 
     /// The point at `t`, the first and the second derivative, by de Casteljau's algorithm.
+    #[inline]
     pub(super) fn derivatives(&self, t: f64) -> [DVec3; 3] {
         let [p0, p1, p2, p3] = self.0;
         let (a, b, c) = (mix(p0, p1, t), mix(p1, p2, t), mix(p2, p3, t));

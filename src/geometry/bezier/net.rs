@@ -32,13 +32,16 @@ impl ControlNet {
     /// The point `S(u, v)`. It is exact at the corners; on an edge it depends on that edge's four control points alone, so that
     /// patches that share an edge meet without a gap.
     pub fn eval(&self, u: f64, v: f64) -> DVec3 {
-        Cubic(self.points.map(|row| Cubic(row).eval(v))).eval(u)
+        let [a, b, c, d] = self.points;
+        Cubic([Cubic(a).eval(v), Cubic(b).eval(v), Cubic(c).eval(v), Cubic(d).eval(v)]).eval(u)
     }
 
     /// The point with its derivatives, by de Casteljau's algorithm in v, then in u.
     pub fn derivatives(&self, u: f64, v: f64) -> Derivatives {
-        let rows = self.points.map(|row| Cubic(row).derivatives(v));
-        let along_u = |order: usize| Cubic(rows.map(|row| row[order])).derivatives(u);
+        let [a, b, c, d] = self.points;
+        let [a, b, c, d] =
+            [Cubic(a).derivatives(v), Cubic(b).derivatives(v), Cubic(c).derivatives(v), Cubic(d).derivatives(v)];
+        let along_u = |order: usize| Cubic([a[order], b[order], c[order], d[order]]).derivatives(u);
         let [position, dpdu, d2pdu2] = along_u(0);
         let [dpdv, d2pdudv, _] = along_u(1);
         let [d2pdv2, ..] = along_u(2);

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 const LEAST_DISTANCE: f64 = 1e-9;
 
 /// A ray that leaves a point of this light.
+#[inline]
 pub(in crate::transport) fn ray_from_light(light: &Light, origin: DVec3, direction: DVec3) -> Ray {
     Ray { t_min: LEAST_DISTANCE * light.magnitude(), ..Ray::new(origin, direction) }
 }
