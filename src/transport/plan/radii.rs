@@ -25,7 +25,7 @@ pub(super) const GLOSSY_RADIUS: f64 = 6.0;
 const REUSE_DISTANCE: f64 = 4.0;
 /// Greatest radius, over the size of the region in view if it were as far away: a wider disc would mix the light of
 /// different parts of the region.
-const LARGEST_RADIUS: f64 = 0.13;
+const LARGEST_RADIUS: f64 = 0.12;
 
 /// Radius for interreflection in a draft, pixel footprints of the draft.
 pub(super) const DRAFT_RADIUS: f64 = 16.0;
@@ -34,7 +34,7 @@ const DRAFT_GLOSSY: f64 = 0.75;
 /// Distance up to which neighbours in a draft reuse each other's lobe samples, pixel footprints: adjacent pixels only.
 const DRAFT_REUSE_DISTANCE: f64 = 1.5;
 /// Greatest radius of a draft, as [`LARGEST_RADIUS`]: a draft has fewer photons and may blur more.
-const DRAFT_LARGEST_RADIUS: f64 = 0.18;
+const DRAFT_LARGEST_RADIUS: f64 = 0.17;
 
 /// Radii of density estimates after one full iteration, in pixel footprints except for `largest`.
 #[derive(Clone, Copy, Debug, PartialEq)]

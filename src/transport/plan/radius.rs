@@ -157,7 +157,7 @@ fn in_lobe(radius: f64, blur: f32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transport::testing;
+    use crate::transport::testing::{self, lamp, quad, sphere, visible_point};
 
     #[test]
     fn discs_for_caustics_are_small_near_objects() {
@@ -172,5 +172,20 @@ mod tests {
         assert_eq!(radius(0.04, 0.06), 0.03);
         assert_eq!(radius(0.04, 0.0), half, "the radius of sharp caustics is the least");
         assert_eq!(radius(0.5 * half, 0.0), 0.5 * half, "a shrunk radius stays");
+    }
+
+    /// A film so coarse that the greatest radius limits the discs.
+    #[test]
+    fn the_greatest_radius_does_not_depend_on_far_objects() {
+        let radius = |far: &str| {
+            let wall = quad("wall", [[-5.0, -5.0, 0.0], [10.0, 0.0, 0.0], [0.0, 10.0, 0.0]], "grey");
+            let film = "[film]\nwidth = 16\nheight = 16\n".to_owned();
+            let world = testing::world(&[film, lamp([0.0, 0.0, 3.0]), wall, far.to_owned()].concat());
+            let plan = Plan::new(&world);
+            plan.radii_of(&world, 1).at(MapKind::Global, &visible_point()) / plan.radii.global
+        };
+        let alone = radius("");
+        assert!(alone < 0.9 * f64::from(visible_point().footprint), "{alone}");
+        assert_eq!(radius(&sphere("far", [0.0, 1e9, 0.0], 1.0, "grey")), alone);
     }
 }
