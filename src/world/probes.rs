@@ -1,7 +1,7 @@
 //! Probe rays that find what the camera sees of a world. Origins and lengths that serve the whole picture come from here: the box around
 //! the scene would follow objects that the picture does not show.
 
-use super::{Camera, Lobe, Surface, SurfacePoint, View, World};
+use super::{Camera, Light, Lobe, Surface, SurfacePoint, View, World};
 use crate::math::{Aabb, OrthonormalBasis, Ray, Sampler, Stream, warp};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -14,12 +14,18 @@ const MOST_SPECULAR: usize = 4;
 /// scene that a camera with a common angle of view shows as a whole.
 const FAR: f64 = 1.25;
 
+/// Least light over that of the brightest surface with which a surface counts as seen: less leaves it black in any picture.
+const LEAST_LIGHT: f64 = 1e-4;
+/// Least distance of a lamp for this comparison, over the distance from the camera: the spot beneath a lamp must not outshine the rest.
+const NEAREST_LAMP: f64 = 0.1;
+
 /// The surface that a probe ray shows.
 struct Seen {
     film: DVec2,
     distance: f64,
     position: DVec3,
-    scatters: bool,
+    /// A bound of the light that it scatters straight from the lamps, of any unit.
+    light: f64,
     /// Distance to the next surface that scatters light, in a random direction; infinite where there is none.
     free_path: f64,
 }
@@ -28,9 +34,8 @@ struct Seen {
 pub(super) fn view(world: &World, target_distance: f64) -> View {
     let camera = &world.camera;
     let mut seen: Vec<Seen> = (0..SIDE * SIDE).into_par_iter().filter_map(|k| probe(world, k)).collect();
-    if seen.iter().any(|seen| seen.scatters) {
-        seen.retain(|seen| seen.scatters);
-    }
+    let brightest = seen.iter().map(|seen| seen.light).fold(0.0, f64::max);
+    seen.retain(|seen| seen.light >= LEAST_LIGHT * brightest);
     let Some(distance) = median(seen.iter().map(|seen| seen.distance)) else {
         return view_of_nothing(camera, target_distance);
     };
@@ -71,11 +76,12 @@ fn probe(world: &World, k: u32) -> Option<Seen> {
         let Some(hit) = world.closest_hit(&ray) else { break };
         let point = world.surface_point(&ray, hit);
         let material = scattering_material(world, hit.primitive);
-        let scatters = material.is_some_and(|(_, scatters)| scatters);
+        let scattered = material.map_or(0.0, |(_, scattered)| scattered);
         let distance = (before + hit.t).max(f64::MIN_POSITIVE);
-        seen = Some(Seen { film, distance, position: point.position, scatters, free_path: f64::INFINITY });
+        let light = scattered * irradiance(world, point.position, NEAREST_LAMP * distance);
+        seen = Some(Seen { film, distance, position: point.position, light, free_path: f64::INFINITY });
         match material {
-            Some((material, false)) if world.materials[material as usize].is_specular() => {
+            Some((material, 0.0)) if world.materials[material as usize].is_specular() => {
                 (ray, before) = beyond(world, &ray, &point, material, before);
             }
             _ => return seen.map(|seen| Seen { free_path: free_path(world, &point, k), ..seen }),
@@ -84,10 +90,19 @@ fn probe(world: &World, k: u32) -> Option<Seen> {
     seen
 }
 
-/// The material of an object's primitive, and whether it scatters light.
-fn scattering_material(world: &World, primitive: u32) -> Option<(u32, bool)> {
+/// The material of an object's primitive, and a bound of the fraction of light that it scatters.
+fn scattering_material(world: &World, primitive: u32) -> Option<(u32, f64)> {
     let Surface::Object { material, .. } = world.surfaces[primitive as usize] else { return None };
-    Some((material, world.materials[material as usize].scattered_bound() > 0.0))
+    Some((material, world.materials[material as usize].scattered_bound().into()))
+}
+
+/// The power of the lamps over their squared distances from a point, each at least the distance `nearest` away.
+fn irradiance(world: &World, position: DVec3, nearest: f64) -> f64 {
+    let of_light = |light: &Light| {
+        let distance = light.center().distance(position).max(nearest);
+        f64::from(light.power().max_element()) / distance.powi(2)
+    };
+    world.lights.iter().map(of_light).sum()
 }
 
 /// The distance from a point to the next surface that scatters light, in the k-th of some directions distributed as diffuse reflection.
@@ -95,7 +110,7 @@ fn free_path(world: &World, point: &SurfacePoint, k: u32) -> f64 {
     let u = Sampler::new(0, Stream::Probe, u64::MAX, u64::from(k)).next_2d();
     let direction = OrthonormalBasis::from_normal(point.n_side()).world_from_local(warp::cosine_hemisphere(u));
     let hit = world.closest_hit(&Ray::new(world.leave(point, direction), direction));
-    let scatters = |primitive| scattering_material(world, primitive).is_some_and(|(_, scatters)| scatters);
+    let scatters = |primitive| scattering_material(world, primitive).is_some_and(|(_, scattered)| scattered > 0.0);
     hit.filter(|hit| scatters(hit.primitive)).map_or(f64::INFINITY, |hit| hit.t)
 }
 
@@ -127,6 +142,7 @@ mod tests {
     fn seen(text: &str) -> View {
         let head = "version = 1\n[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 53.13010235415598
             [film]\nwidth = 64\nheight = 64
+            [[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [0, 0, 4]\nintensity = [1, 1, 1]
             [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
             [[material]]\nname = \"black\"\ntype = \"diffuse\"\nalbedo = [0, 0, 0]
             [[material]]\nname = \"mirror\"\ntype = \"mirror\"\nreflectance = [0.8, 0.8, 0.8]\n";
@@ -172,7 +188,9 @@ mod tests {
         let around = ball("around", [0.0; 3], 1e6, "black");
         assert_eq!(seen(&[&wall, &far, &around].map(String::as_str).concat()), alone);
         let half = square("wall", 1.0, 0.0, "grey");
-        assert_eq!(seen(&[half.clone(), around].concat()), seen(&half), "black around a wall that leaves it in view");
+        for around in [around, ball("around", [0.0; 3], 1e6, "grey")] {
+            assert_eq!(seen(&[half.clone(), around].concat()), seen(&half), "too dark around a wall to show");
+        }
     }
 
     /// Near a wall of a room the film shows a small part of the room.

@@ -1,7 +1,8 @@
 use glam::DVec3;
 
 /// Where the surfaces are that the camera sees, directly, in mirrors or through glass: medians over a few probe rays, so that a small or
-/// far object in the picture does not move them. Surfaces that scatter light count, others only if the camera sees none that do.
+/// far object in the picture does not move them. Surfaces that scatter light from the lamps count, others only if the
+/// camera sees none that do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct View {
     /// Origin of positions in `f32`, scene units: of the box around what the camera sees, the point nearest to the camera. No point of the

@@ -26,7 +26,7 @@ fn floor(half: f64) -> String {
 #[test]
 fn a_lamp_lights_a_floor_of_any_size_alike() {
     let right = 0.5 / PI * 1.16f64.powf(-1.5);
-    for half in [5.0, 5e4, 5e8] {
+    for half in [5.0, 50.0, 1.5e4, 5e8] {
         let text = camera([0.4, 2.0, 0.0], [0.4, 0.0, 0.0], 1.0) + &lamp([0.0, 1.0, 0.0]) + &floor(half);
         let found = mean(&render(&text, 4));
         // The film shows 0.03 units, over which the irradiance changes by 3 %, evenly.
@@ -83,6 +83,7 @@ fn far_objects_change_a_room_by_less_than_its_noise() {
         (sphere("far", [1e9, 1e9, 0.0], 10.0, "mirror"), "a mirror at 1e9"),
         (sphere("far", [0.0; 3], 1e3, "black"), "a black sphere around the room"),
         (sphere("far", [0.0; 3], 1e9, "black"), "a large black sphere around the room"),
+        (sphere("far", [0.0; 3], 1e9, "grey"), "a large grey sphere around the room"),
         (plane(-1e9), "a plane at -1e9"),
         (hidden + far_lamp, "a lamp at 1e9 that a lid hides"),
     ] {
@@ -96,7 +97,7 @@ fn far_objects_change_a_room_by_less_than_its_noise() {
 fn a_room_looks_the_same_in_any_unit_and_place() {
     let alone = room([0.0; 3], 1.0);
     let (image, noise) = (picture(&alone, 1), difference(&picture(&alone, 1), &picture(&alone, 2)));
-    for (middle, scale) in [([0.0; 3], 1e-6), ([0.0; 3], 1e4), ([1e5, -1e5, 1e5], 1.0)] {
+    for (middle, scale) in [([0.0; 3], 1e-6), ([0.0; 3], 1e-4), ([0.0; 3], 1e4), ([1e5, -1e5, 1e5], 1.0)] {
         let changed = difference(&image, &picture(&room(middle, scale), 1));
         assert!(changed < noise, "{scale:e} at {middle:?}: {changed}, with a noise of {noise}");
     }

@@ -23,7 +23,9 @@ fn lit_from(distance: f64, ground: &str, component: Component) -> f64 {
 fn the_distance_of_a_lamp_does_not_matter() {
     let square = quad("ground", [[-2.0, 0.0, 2.0], [4.0, 0.0, 0.0], [0.0, 0.0, -4.0]], "white");
     let plane = object("ground", "plane", "white", "point = [0, 0, 0]\nnormal = [0, 1, 0]");
-    for ground in [square, plane] {
+    // Too large to get a share of the photons.
+    let in_a_sphere = square.clone() + &sphere("around", [0.0; 3], 1e9, "white");
+    for ground in [square, plane, in_a_sphere] {
         for component in [Component::Caustics, Component::Interreflection] {
             let near = lit_from(40.0, &ground, component);
             assert!(near > 1e-3, "{component:?}: {near}");

@@ -48,8 +48,8 @@ fn patches(world: &World) -> Vec<&Arc<Patch>> {
     patches.collect()
 }
 
-/// For each patch and for the texture, whether the world of an edited scene reuses it from the world before.
-fn reused(edit: impl Fn(&mut Scene)) -> ([bool; 3], bool) {
+/// The world of the scene with all trees built, and the world after an edit.
+fn edited(edit: impl Fn(&mut Scene)) -> [World; 2] {
     let folder: TempDir = tempfile::tempdir().unwrap();
     let before = scene(folder.path());
     let old = prepare(&before.scene, &before.location, None).expect("the scene can be prepared");
@@ -58,6 +58,12 @@ fn reused(edit: impl Fn(&mut Scene)) -> ([bool; 3], bool) {
     edit(&mut after.scene);
     assert_ne!(before.scene, after.scene, "the edit changes something");
     let new = prepare(&after.scene, &after.location, Some(&old)).expect("the edited scene can be prepared");
+    [old, new]
+}
+
+/// For each patch and for the texture, whether the world of an edited scene reuses it from the world before.
+fn reused(edit: impl Fn(&mut Scene)) -> ([bool; 3], bool) {
+    let [old, new] = edited(edit);
     let (old_patches, new_patches) = (patches(&old), patches(&new));
     let is_reused = [0, 1, 2].map(|k| Arc::ptr_eq(old_patches[k], new_patches[k]));
     // A reused tree stays built, and rays that find what the camera sees build new ones.
@@ -75,6 +81,16 @@ fn bezier_point(scene: &mut Scene, object: usize, patch: usize) -> &mut glam::DV
 fn a_moved_control_point_rebuilds_its_patch_alone() {
     assert_eq!(reused(|scene| bezier_point(scene, 0, 1).y += 0.1), ([true, false, true], true));
     assert_eq!(reused(|scene| bezier_point(scene, 1, 0).y += 0.1), ([true, true, false], true));
+}
+
+#[test]
+fn a_patch_out_of_view_has_no_tree_until_a_ray_comes_near() {
+    let [_, new] = edited(|scene| {
+        let Shape::Bezier(bezier) = &mut scene.objects[0].shape else { panic!("no patches") };
+        let net = &mut Arc::make_mut(&mut bezier.patches)[1];
+        net.points.as_flattened_mut().iter_mut().for_each(|point| point.z += 1e3);
+    });
+    assert_eq!([0, 1, 2].map(|k| patches(&new)[k].is_prepared()), [true, false, true]);
 }
 
 #[test]

@@ -6,12 +6,15 @@ use super::emission::{self, Emission};
 use crate::geometry::Primitive;
 use crate::math::Sampler;
 use crate::world::{Light, World};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// Fraction of a light's sphere of directions that the scene fills, below which photons aim at the scene.
 const FAR: f64 = 1.0 / 16.0;
-/// Where the ground is unbounded, photons also aim at a ball around the point that the camera looks at: its radius over the distance of
-/// the camera. The ground that the camera sees, and what lights it, is mostly in it.
+/// Half the diagonal of a primitive's box over the distance from the light to the view, from which on photons do not aim at the primitive
+/// as a whole: if it is all around, an even share of the paths brings back 1e-4 of the light that the view has straight from the lamp.
+const WIDE: f64 = 100.0;
+/// Where a primitive is that wide, photons also aim at a ball around the middle of the view: its radius over the distance of the camera.
+/// The ground that the camera sees, and what lights it, is mostly in it.
 const VIEW: f64 = 2.0;
 
 /// The first rays of a light's photon paths.
@@ -30,16 +33,16 @@ impl PhotonEmission {
     }
 
     fn new(world: &World, light: &Light, light_index: u64) -> Self {
-        let has_plane = world.aggregate.primitives().iter().any(|p| matches!(p, Primitive::Plane(_)));
-        let is_bounded = |p: u32| !matches!(world.aggregate.primitives()[p as usize], Primitive::Plane(_));
-        let cones: Option<Vec<Cone>> = cones_of_objects(world, light, &is_bounded).into_values().collect();
-        let view = if has_plane { view_cone(world, light) } else { Some(None) };
+        let are_wide: Vec<bool> = world.aggregate.primitives().iter().map(|p| is_wide(world, light, p)).collect();
+        let is_aim = |p: u32| !are_wide[p as usize];
+        let cones: Option<Vec<Cone>> = cones_of_objects(world, light, &is_aim).into_values().collect();
+        let view = if are_wide.contains(&true) { view_cone(world, light).map(Some) } else { Some(None) };
         let (Some(cones), Some(view)) = (cones, view) else { return Self::Everywhere };
         let filled: f64 = cones.iter().chain(&view).map(Cone::fraction_of_sphere).sum();
         if filled == 0.0 || filled > FAR {
             return Self::Everywhere;
         }
-        Self::Aimed(Box::new(ProjectionMap::build(world, light, light_index, view, &is_bounded)))
+        Self::Aimed(Box::new(ProjectionMap::build(world, light, light_index, view, &is_aim)))
     }
 
     /// The first ray of a path; `None` where the light does not shine in the sampled direction.
@@ -72,9 +75,14 @@ impl PhotonEmission {
     }
 }
 
-/// The cone in which the light sees what the camera looks at; `None` if that surrounds the light.
-fn view_cone(world: &World, light: &Light) -> Option<Option<Cone>> {
-    let ray = world.camera.ray(0.5 * DVec2::new(world.camera.width.into(), world.camera.height.into()));
-    let distance = world.aggregate.closest_hit(&ray).map_or(world.view.distance, |hit| hit.t);
-    Cone::around(ray.at(distance) - light.center(), VIEW * distance + light.bounding_radius()).map(Some)
+/// Whether a primitive is so wide that photons do not aim at it as a whole.
+fn is_wide(world: &World, light: &Light, primitive: &Primitive) -> bool {
+    let distance = light.center().distance(world.view.center).max(world.view.distance);
+    matches!(primitive, Primitive::Plane(_)) || 0.5 * primitive.bounds().diagonal() >= WIDE * distance
+}
+
+/// The cone in which the light sees the view and its surroundings; `None` if these surround the light.
+fn view_cone(world: &World, light: &Light) -> Option<Cone> {
+    let radius = VIEW * world.view.distance + light.bounding_radius();
+    Cone::around(world.view.center - light.center(), radius)
 }
