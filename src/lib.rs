@@ -129,7 +129,7 @@
 //! |---|---|
 //! | photon | flux that arrived at a point of a surface, with its direction |
 //! | photon map | kd-tree over photons; an iteration has four: for caustics, interreflection, indirect caustics and Phong lobes |
-//! | projection map | density over the directions of a light that aims photons at mirrors and glass |
+//! | projection map | density over the first rays of a light (directions; for parallel rays, points across them) that aims photons at mirrors and glass, or at a scene that appears small |
 //! | splat | flux of a caustic photon added to the pixel that sees it, without a density estimate (light tracing) |
 //! | density estimate | kernel-weighted sum of the flux of photons in a disc, over the kernel's integral: irradiance or radiance |
 //! | footprint | side of a pixel projected to the distance of a point, scene units |

@@ -49,6 +49,11 @@ impl Aggregate {
         &self.primitives
     }
 
+    /// The planes: primitives without bounds.
+    pub fn unbounded(&self) -> impl Iterator<Item = &Primitive> {
+        self.planes.iter().map(|&plane| &self.primitives[plane as usize])
+    }
+
     /// The box around all bounded primitives.
     pub fn bounds(&self) -> Aabb {
         self.blocks_bvh.bounds().union(&self.bvh.bounds())

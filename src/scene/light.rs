@@ -40,4 +40,31 @@ pub enum Emitter {
         /// Radiance, W/(sr m^2).
         radiance: Rgb,
     },
+    /// A source so far away that its rays come from everywhere outside the scene. No ray sees it.
+    Sun {
+        /// The direction in which its light travels, of any length.
+        direction: DVec3,
+        /// Irradiance of a plane across the direction, above the scene, W/m^2.
+        irradiance: Rgb,
+        /// The angle under which the disc of the sun appears, degrees; 0 for parallel rays.
+        diameter: f64,
+    },
+    /// Parallel rays that leave a disc. No ray sees it.
+    Beam {
+        /// The center of the disc, scene units.
+        center: DVec3,
+        /// The direction of the rays, of any length.
+        direction: DVec3,
+        /// The radius of the disc, scene units, above 0.
+        radius: f64,
+        /// Power, W, even over the disc.
+        power: Rgb,
+    },
+}
+
+impl Emitter {
+    /// The angle under which the sun appears from the earth, degrees.
+    pub const SUN_DIAMETER: f64 = 0.53;
+    /// The greatest diameter of a sun, degrees: a wider one lights as a sky does.
+    pub const MOST_DIAMETER: f64 = 90.0;
 }

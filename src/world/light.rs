@@ -1,7 +1,8 @@
+use super::ParallelRays;
 use crate::geometry::{Quad, Sphere};
 use crate::math::Rgb;
 use crate::math::float::SELF_HIT_OFFSET;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 /// Distance of test points from the surface of a light, relative to the light's coordinates: beyond what rounding does not tell apart.
@@ -31,25 +32,29 @@ pub enum Light {
         /// Radiance, W/(sr m^2).
         radiance: Rgb,
     },
+    /// A sun or a beam. No ray sees it.
+    Parallel(ParallelRays),
 }
 
 impl Light {
-    /// The total emitted power, W.
+    /// The total emitted power, W; of a sun, the power through its disc.
     pub fn power(&self) -> Rgb {
         match self {
             Self::Point { intensity, .. } => *intensity * (4.0 * PI) as f32,
             Self::Sphere { sphere, radiance } => *radiance * (PI * 4.0 * PI * sphere.radius * sphere.radius) as f32,
             Self::Quad { quad, radiance } => *radiance * (PI * quad.area()) as f32,
+            Self::Parallel(rays) => rays.power(),
         }
     }
 
-    /// The center of the light.
+    /// The center of the light; of a sun, of its disc.
     #[inline]
     pub fn center(&self) -> DVec3 {
         match self {
             Self::Point { position, .. } => *position,
             Self::Sphere { sphere, .. } => sphere.center,
             Self::Quad { quad, .. } => quad.position(0.5, 0.5),
+            Self::Parallel(rays) => rays.center,
         }
     }
 
@@ -60,6 +65,7 @@ impl Light {
             Self::Point { .. } => 0.0,
             Self::Sphere { sphere, .. } => sphere.radius,
             Self::Quad { quad, .. } => 0.5 * (quad.edges().0.length() + quad.edges().1.length()),
+            Self::Parallel(rays) => rays.radius,
         }
     }
 
@@ -69,7 +75,8 @@ impl Light {
         self.center().abs().max_element() + self.bounding_radius()
     }
 
-    /// Points that tell in which bodies the light is, just off its surface: the center of a point light, some points of an area light.
+    /// Points that tell in which bodies the light is, just off its surface: the center of a point light, some points of an area light or
+    /// a beam. None for a sun, which is outside of everything.
     pub(super) fn test_points(&self) -> Vec<DVec3> {
         let off_surface = OFF_SURFACE * self.magnitude();
         match self {
@@ -81,6 +88,11 @@ impl Light {
             Self::Quad { quad, .. } => {
                 let inset = [(0.5, 0.5), (0.01, 0.01), (0.99, 0.01), (0.99, 0.99), (0.01, 0.99)];
                 inset.map(|(u, v)| quad.position(u, v) + off_surface * quad.normal()).to_vec()
+            }
+            Self::Parallel(ParallelRays { from_outside: true, .. }) => Vec::new(),
+            Self::Parallel(rays) => {
+                let inset = [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
+                inset.map(|point| rays.point(0.99 * point)).to_vec()
             }
         }
     }

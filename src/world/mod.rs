@@ -3,7 +3,8 @@
 //! | file | holds |
 //! |---|---|
 //! | `camera` | [`Camera`]: rays of pixels, pixels of points |
-//! | `light` | [`Light`]: points, spheres and quads that emit |
+//! | `parallel_rays` | [`ParallelRays`] of a sun or a beam |
+//! | `light` | [`Light`]: points, spheres, quads, suns and beams that emit |
 //! | `texture` | [`Image`]: decoded textures |
 //! | `material` | [`Material`] with its textures; [`Scattering`] at a point |
 //! | `shared_edges` | [`SharedEdges`] between the patches of an object |
@@ -21,6 +22,7 @@ mod camera;
 mod error;
 mod light;
 mod material;
+mod parallel_rays;
 mod prepare;
 mod prepared;
 mod probes;
@@ -35,6 +37,7 @@ pub use camera::{Camera, Projected};
 pub use error::PrepareError;
 pub use light::Light;
 pub use material::{Lobe, Material, Scattering};
+pub use parallel_rays::ParallelRays;
 pub use prepare::prepare;
 pub use prepared::World;
 pub use shared_edges::SharedEdges;

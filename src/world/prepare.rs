@@ -3,14 +3,19 @@ use super::material::{Model, Relief, Source};
 use super::probes;
 use super::shared_edges::shared_edges;
 use super::texture::{self, TextureKey};
-use super::{Camera, Contacts, Image, Light, Material, PrepareError, SharedEdges, Surface, View, World};
+use super::{Camera, Contacts, Image, Light, Material, ParallelRays, PrepareError, SharedEdges, Surface, View, World};
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
-use crate::math::Rgb;
+use crate::math::{Aabb, Rgb};
 use crate::scene::{self, Emitter, Location, MaterialModel, Scene, Shape, TextureUse};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 use std::sync::Arc;
+
+/// Radius of the part of an unbounded scene that the photons of a sun reach, distances of the camera from what it sees: the ground that the
+/// camera sees, and what lights it, is mostly in it.
+const AROUND_VIEW: f64 = 2.0;
 
 /// Prepares the world of a scene; paths in the scene are relative to `location`. The world shares unchanged parts with
 /// `previous`: a moved control point rebuilds the tree of its patch and refits the BVH; a new material or light
@@ -48,7 +53,31 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
         textures: textures.decoded,
     };
     world.view = probes::view(&world, scene.camera.position.distance(scene.camera.target));
+    spread_suns(&mut world);
     Ok(world)
+}
+
+/// Lets the disc of each sun cover the bounded objects, and a part of the unbounded ones about what the camera sees.
+fn spread_suns(world: &mut World) {
+    let bounds = world.aggregate.bounds();
+    let view = Aabb::around([world.view.center]);
+    let has_planes = world.aggregate.unbounded().next().is_some();
+    let (center, mut radius) = match (bounds.is_empty(), has_planes) {
+        (false, false) => (bounds.center(), 0.5 * bounds.diagonal()),
+        _ => {
+            let all = bounds.union(&view);
+            (all.center(), 0.5 * all.diagonal() + AROUND_VIEW * world.view.distance)
+        }
+    };
+    if radius == 0.0 {
+        radius = world.view.distance;
+    }
+    for light in &mut world.lights {
+        if let Light::Parallel(sun @ ParallelRays { from_outside: true, .. }) = light {
+            // Paths aslant cross the plane of the disc beside the ball.
+            (sun.center, sun.radius) = (center, radius * (1.0 + sun.half_angle.tan()));
+        }
+    }
 }
 
 /// A primitive before its tree is built; for a patch, its net and whether its transform mirrors.
@@ -66,6 +95,22 @@ pub(super) fn light(light: &scene::Light) -> Light {
         Emitter::Quad { corner, edge_u, edge_v, radiance } => {
             Light::Quad { quad: Quad::new(corner, edge_u, edge_v), radiance }
         }
+        Emitter::Sun { direction, irradiance, diameter } => Light::Parallel(ParallelRays {
+            direction: direction.normalize(),
+            half_angle: 0.5 * diameter.to_radians(),
+            irradiance,
+            center: DVec3::ZERO,
+            radius: 1.0,
+            from_outside: true,
+        }),
+        Emitter::Beam { center, direction, radius, power } => Light::Parallel(ParallelRays {
+            direction: direction.normalize(),
+            half_angle: 0.0,
+            irradiance: power / (PI * radius * radius) as f32,
+            center,
+            radius,
+            from_outside: false,
+        }),
     }
 }
 
@@ -90,7 +135,7 @@ fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Su
     }
     for (index, light) in lights.iter().enumerate() {
         let primitive = match light {
-            Light::Point { .. } => continue,
+            Light::Point { .. } | Light::Parallel(_) => continue,
             Light::Sphere { sphere, .. } => Primitive::Sphere(*sphere),
             Light::Quad { quad, .. } => Primitive::Quad(*quad),
         };

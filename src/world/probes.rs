@@ -5,6 +5,7 @@ use super::{Camera, Light, Lobe, Surface, SurfacePoint, View, World};
 use crate::math::{Aabb, OrthonormalBasis, Ray, Sampler, Stream, warp};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// Probe rays along a side of the film.
 const SIDE: u32 = 16;
@@ -99,6 +100,9 @@ fn scattering_material(world: &World, primitive: u32) -> Option<(u32, f64)> {
 /// The power of the lamps over their squared distances from a point, each at least the distance `nearest` away.
 fn irradiance(world: &World, position: DVec3, nearest: f64) -> f64 {
     let of_light = |light: &Light| {
+        if let Light::Parallel(rays) = light {
+            return 4.0 * PI * f64::from(rays.irradiance.max_element());
+        }
         let distance = light.center().distance(position).max(nearest);
         f64::from(light.power().max_element()) / distance.powi(2)
     };

@@ -14,6 +14,7 @@ mod far_lamps;
 mod glass;
 mod gloss;
 mod indirect_shadow;
+mod parallel_lights;
 mod passes;
 mod plan;
 mod reuse;

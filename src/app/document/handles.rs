@@ -21,7 +21,7 @@ pub(crate) enum Handle {
     },
     /// The centre of an object, which moves the whole object.
     Object(usize),
-    /// The centre of a light.
+    /// The centre of a light; of a sun, the point from which a ray along its direction vector meets the origin.
     Light(usize),
 }
 
@@ -154,6 +154,9 @@ fn light_center(emitter: &Emitter) -> DVec3 {
         Emitter::Point { position, .. } => *position,
         Emitter::Sphere { center, .. } => *center,
         Emitter::Quad { corner, edge_u, edge_v, .. } => *corner + 0.5 * (*edge_u + *edge_v),
+        // The rays of a sun have a direction alone: the handle is where they would come from on their way to the origin.
+        Emitter::Sun { direction, .. } => -*direction,
+        Emitter::Beam { center, .. } => *center,
     }
 }
 
@@ -182,7 +185,9 @@ fn translate_emitter(emitter: &mut Emitter, by: DVec3) {
     match emitter {
         Emitter::Point { position, .. }
         | Emitter::Sphere { center: position, .. }
-        | Emitter::Quad { corner: position, .. } => *position += by,
+        | Emitter::Quad { corner: position, .. }
+        | Emitter::Beam { center: position, .. } => *position += by,
+        Emitter::Sun { direction, .. } => *direction -= by,
     }
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 /// The kinds of materials, by their names in the scene format.
 pub(crate) const MODEL_KINDS: [&str; 5] = ["diffuse", "phong", "polished", "mirror", "glass"];
 /// The kinds of lights, by their names in the scene format.
-pub(crate) const EMITTER_KINDS: [&str; 3] = ["point", "sphere", "quad"];
+pub(crate) const EMITTER_KINDS: [&str; 5] = ["point", "sphere", "quad", "sun", "beam"];
 
 /// The name of a shape's kind in the scene format.
 pub(crate) fn shape_kind(shape: &Shape) -> &'static str {
@@ -25,6 +25,8 @@ pub(crate) fn emitter_kind(emitter: &Emitter) -> &'static str {
         Emitter::Point { .. } => "point",
         Emitter::Sphere { .. } => "sphere",
         Emitter::Quad { .. } => "quad",
+        Emitter::Sun { .. } => "sun",
+        Emitter::Beam { .. } => "beam",
     }
 }
 
@@ -74,7 +76,8 @@ pub(crate) fn model_like(model: &MaterialModel, kind: &str) -> MaterialModel {
     }
 }
 
-/// A light of the kind `kind` at the same position, with the same peak intensity.
+/// A light of the kind `kind` at the same position, with the same peak intensity. A sun from there lights the
+/// origin as the other kinds do, and a beam lights its whole way as they do at a distance of 1.
 pub(crate) fn emitter_like(emitter: &Emitter, kind: &str) -> Emitter {
     const PI: f32 = std::f32::consts::PI;
     // Intensity along the brightest direction, W/sr: a small surface of projected area A and radiance L has A L.
@@ -84,6 +87,8 @@ pub(crate) fn emitter_like(emitter: &Emitter, kind: &str) -> Emitter {
         Emitter::Quad { corner, edge_u, edge_v, radiance } => {
             (corner + 0.5 * (edge_u + edge_v), radiance * edge_u.cross(edge_v).length() as f32)
         }
+        Emitter::Sun { direction, irradiance, .. } => (-direction, irradiance * direction.length_squared() as f32),
+        Emitter::Beam { center, radius, power, .. } => (center, power / (PI * (radius * radius) as f32)),
     };
     const RADIUS: f64 = 0.1;
     match kind {
@@ -95,6 +100,17 @@ pub(crate) fn emitter_like(emitter: &Emitter, kind: &str) -> Emitter {
             edge_u: 2.0 * RADIUS * DVec3::X,
             edge_v: 2.0 * RADIUS * DVec3::Z,
             radiance: intensity / (4.0 * RADIUS * RADIUS) as f32,
+        },
+        "sun" => {
+            let direction = if at == DVec3::ZERO { DVec3::NEG_Y } else { -at };
+            let irradiance = intensity / direction.length_squared() as f32;
+            Emitter::Sun { direction, irradiance, diameter: Emitter::SUN_DIAMETER }
+        }
+        "beam" => Emitter::Beam {
+            center: at,
+            direction: DVec3::NEG_Y,
+            radius: RADIUS,
+            power: intensity * (PI * (RADIUS * RADIUS) as f32),
         },
         _ => Emitter::Point { position: at, intensity },
     }

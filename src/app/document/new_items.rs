@@ -14,6 +14,9 @@ use std::array;
 use std::path::Path;
 use std::sync::Arc;
 
+/// Where a new sun shines from: high, and aside, so that shadows show.
+const NEW_SUN: DVec3 = DVec3::new(0.4, 0.8, 0.3);
+
 /// Makes a new shape or light, sized and placed for the scene's camera.
 type Make<T> = fn(&Scene) -> T;
 
@@ -32,11 +35,13 @@ pub(crate) fn shapes() -> [(&'static str, Make<Shape>); 4] {
 }
 
 /// The lights of the menu "Add to Lights", by their labels.
-pub(crate) fn emitters() -> [(&'static str, Make<Emitter>); 3] {
+pub(crate) fn emitters() -> [(&'static str, Make<Emitter>); 5] {
     [
         ("point light", |scene| emitter(scene, "point")),
         ("sphere light", |scene| emitter(scene, "sphere")),
         ("quad light", |scene| emitter(scene, "quad")),
+        ("sun", |scene| emitter(scene, "sun")),
+        ("beam", |scene| emitter(scene, "beam")),
     ]
 }
 
@@ -133,6 +138,9 @@ fn sheet(center: DVec3, half: f64) -> Bezier {
 }
 
 fn emitter(scene: &Scene, kind: &str) -> Emitter {
+    if kind == "sun" {
+        return emitter_like(&Emitter::Point { position: NEW_SUN, intensity: Rgb::ONE }, kind);
+    }
     let position = scene.camera.target + size(scene) * DVec3::Y;
     emitter_like(&Emitter::Point { position, intensity: Rgb::ONE }, kind)
 }

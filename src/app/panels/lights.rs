@@ -24,7 +24,7 @@ pub(super) fn light_ui(ui: &mut Ui, document: &Document, index: usize, light: &L
 }
 
 fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, speed: f64) {
-    let length = Number::any(speed);
+    let (length, component) = (Number::any(speed), Number::any(0.01));
     match emitter {
         Emitter::Point { position, intensity } => {
             vector_row(ui, "Position", position, &length);
@@ -40,6 +40,17 @@ fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, speed: f64) {
             vector_row(ui, "Edge u", edge_u, &length);
             vector_row(ui, "Edge v", edge_v, &length);
             strength_row(ui, "Radiance", radiance, "W/sr/m²");
+        }
+        Emitter::Sun { direction, irradiance, diameter } => {
+            vector_row(ui, "Direction", direction, &component);
+            strength_row(ui, "Irradiance", irradiance, "W/m²");
+            number_row(ui, "Diameter", diameter, &Number::any(0.01).within(0.0..=Emitter::MOST_DIAMETER).unit("°"));
+        }
+        Emitter::Beam { center, direction, radius, power } => {
+            vector_row(ui, "Centre", center, &length);
+            vector_row(ui, "Direction", direction, &component);
+            number_row(ui, "Radius", radius, &Number::positive(speed));
+            strength_row(ui, "Power", power, "W");
         }
     }
 }

@@ -200,7 +200,7 @@ impl Field for Color {
 fn light(t: &mut Table<'_>) -> Light {
     let name = name(t);
     let fallback = Emitter::Point { position: DVec3::ZERO, intensity: Rgb::ZERO };
-    Light { name, emitter: by_type(t, &["point", "sphere", "quad"], emitter).unwrap_or(fallback) }
+    Light { name, emitter: by_type(t, &["point", "sphere", "quad", "sun", "beam"], emitter).unwrap_or(fallback) }
 }
 
 fn emitter(kind: &str, t: &mut Table<'_>) -> Option<Emitter> {
@@ -219,6 +219,17 @@ fn emitter(kind: &str, t: &mut Table<'_>) -> Option<Emitter> {
             edge_u: t.required("edge_u", DVec3::X),
             edge_v: t.required("edge_v", DVec3::Y),
             radiance: t.required("radiance", Rgb::ZERO),
+        },
+        "sun" => Emitter::Sun {
+            direction: t.required("direction", DVec3::NEG_Y),
+            irradiance: t.required("irradiance", Rgb::ZERO),
+            diameter: t.optional("diameter", Emitter::SUN_DIAMETER),
+        },
+        "beam" => Emitter::Beam {
+            center: t.required("center", DVec3::ZERO),
+            direction: t.required("direction", DVec3::NEG_Y),
+            radius: t.required("radius", 1.0),
+            power: t.required("power", Rgb::ZERO),
         },
         _ => return None,
     })

@@ -65,7 +65,10 @@ material = "galss"
 #[test]
 fn mistakes_are_named() {
     let cases = [
-        ("[[light]]\nname = \"a\"\n", "1:1: light[0]: the key `type` is missing, expected one of point, sphere, quad"),
+        (
+            "[[light]]\nname = \"a\"\n",
+            "1:1: light[0]: the key `type` is missing, expected one of point, sphere, quad, sun, beam",
+        ),
         ("[[light]]\nname = \"a\"\ntype = 3\n", "3:8: light[0].type: found the number 3, expected a string"),
         ("[light]\nname = \"a\"\n", "1:1: light: found a table, expected a list, each of them a table [[light]]"),
         ("material = [1]\n", "1:1: camera.material: unknown key, expected one of position, target, up, fov_y"),

@@ -99,6 +99,16 @@ fn light(light: &Light, t: &mut Text) {
                 [("corner", corner), ("edge_u", edge_u), ("edge_v", edge_v), ("radiance", radiance)];
             typed(t, "quad", &keys);
         }
+        Emitter::Sun { direction, irradiance, diameter } => {
+            let keys: [(&str, &dyn Value); 3] =
+                [("direction", direction), ("irradiance", irradiance), ("diameter", diameter)];
+            typed(t, "sun", &keys);
+        }
+        Emitter::Beam { center, direction, radius, power } => {
+            let keys: [(&str, &dyn Value); 4] =
+                [("center", center), ("direction", direction), ("radius", radius), ("power", power)];
+            typed(t, "beam", &keys);
+        }
     }
 }
 

@@ -90,6 +90,17 @@ fn emitter() -> impl Strategy<Value = Emitter> {
             edge_v,
             radiance
         }),
+        (directions(), strength(), 0.0..90.0).prop_map(|((direction, _), irradiance, diameter)| Emitter::Sun {
+            direction,
+            irradiance,
+            diameter
+        }),
+        (point(), directions(), size(), strength()).prop_map(|(center, (direction, _), radius, power)| Emitter::Beam {
+            center,
+            direction,
+            radius,
+            power
+        }),
     ]
 }
 

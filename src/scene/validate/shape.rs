@@ -21,6 +21,17 @@ pub(super) fn light(light: &Light, checks: &mut Checks<'_>) {
             parallelogram(corner, edge_u, edge_v, checks);
             checks.radiance("radiance", radiance);
         }
+        Emitter::Sun { direction, irradiance, diameter } => {
+            checks.direction("direction", direction);
+            checks.radiance("irradiance", irradiance);
+            checks.within("diameter", diameter, 0.0, Emitter::MOST_DIAMETER);
+        }
+        Emitter::Beam { center, direction, radius, power } => {
+            checks.point("center", center);
+            checks.direction("direction", direction);
+            checks.length("radius", radius);
+            checks.radiance("power", power);
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::geometry::Sphere;
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
 use crate::transport::counters::Counters;
 use crate::transport::points::{GlossyMis, MisVertex, Vertex, ViewingLobe, bsdf};
-use crate::world::{Light, Media, World};
+use crate::world::{Light, Media, ParallelRays, World};
 use glam::DVec3;
 
 /// The input of next event estimation.
@@ -24,12 +24,15 @@ pub(in crate::transport) struct DirectLight<'a> {
 
 /// A sampled point of a light, seen from a surface point.
 struct LightSample {
+    /// The point; of a sun, any point on the way to it.
     position: DVec3,
+    /// Distance of the light, scene units; [`SUN_DISTANCE`] for a sun.
+    distance: f64,
     /// Unit direction towards the light.
     wi: DVec3,
-    /// Radiance over the density of the direction; intensity over the squared distance for a point light.
+    /// Radiance over the density of the direction; intensity over the squared distance for a point light; irradiance of parallel rays.
     weight: Rgb,
-    /// Density of the direction per steradian; `None` for a point light, which no lobe can hit.
+    /// Density of the direction per steradian; `None` for a light that no ray can hit.
     pdf: Option<f64>,
 }
 
@@ -38,6 +41,9 @@ struct LightSample {
 const NEAREST: f64 = 0.01;
 /// End of a shadow ray over the distance to the sampled point of a light: short of the light's own surface, which would hide the point.
 const SHADOW_RAY_END: f64 = 1.0 - 1e-9;
+
+/// Distance that stands for that of a sun, scene units: beyond every scene, and a common factor of it is still finite in `f32`.
+const SUN_DISTANCE: f64 = 1e30;
 
 /// The camera path that ends at a vertex.
 #[derive(Clone, Copy)]
@@ -48,6 +54,17 @@ pub(in crate::transport) struct SeenBy<'a> {
     pub(in crate::transport) viewing_lobe: Option<ViewingLobe>,
     /// Length of the path, scene units.
     pub(in crate::transport) length: f64,
+}
+
+impl LightSample {
+    /// The ray from the surface point, moved off its surface, to the light.
+    #[inline]
+    fn shadow_ray(&self, from: DVec3) -> Ray {
+        if self.distance >= SUN_DISTANCE {
+            return Ray::new(from, self.wi);
+        }
+        Ray { t_max: SHADOW_RAY_END, ..Ray::between(from, self.position) }
+    }
 }
 
 impl DirectLight<'_> {
@@ -97,12 +114,10 @@ impl DirectLight<'_> {
             return Rgb::ZERO;
         }
         counters.shadow_rays += 1;
-        let shadow_ray =
-            Ray { t_max: SHADOW_RAY_END, ..Ray::between(self.world.leave(&vertex.point, sample.wi), sample.position) };
-        if self.world.aggregate.occluded(&shadow_ray) {
+        if self.world.aggregate.occluded(&sample.shadow_ray(self.world.leave(&vertex.point, sample.wi))) {
             return Rgb::ZERO;
         }
-        radiance * self.world.transmittance(seen_by.media, sample.position.distance(vertex.point.position))
+        radiance * self.world.transmittance(seen_by.media, sample.distance)
     }
 
     /// The MIS weight of camera paths, 0 to 1, for light that a vertex scatters from a point of a light to the lobe that shows the vertex;
@@ -124,16 +139,18 @@ fn sample_light(light: &Light, from: DVec3, nearest: f64, sampler: &mut Sampler)
             let offset = *position - from;
             let distance = offset.length();
             let weight = *intensity / distance.max(nearest).powi(2) as f32;
-            (distance > 0.0).then(|| LightSample { position: *position, wi: offset / distance, weight, pdf: None })
+            let wi = offset / distance;
+            (distance > 0.0).then_some(LightSample { position: *position, distance, wi, weight, pdf: None })
         }
         Light::Sphere { sphere, radiance } => {
             let one_minus_cos = subtended(sphere, from)?;
             let axis = (sphere.center - from).try_normalize()?;
             let wi = OrthonormalBasis::from_normal(axis)
                 .world_from_local(warp::uniform_cone(sampler.next_2d(), one_minus_cos));
-            let t = sphere.intersect(&Ray::new(from, wi)).unwrap_or_else(|| (sphere.center - from).dot(wi));
+            let distance = sphere.intersect(&Ray::new(from, wi)).unwrap_or_else(|| (sphere.center - from).dot(wi));
             let pdf = warp::pdf_uniform_cone(one_minus_cos);
-            Some(LightSample { position: from + t * wi, wi, weight: *radiance / pdf as f32, pdf: Some(pdf) })
+            let (position, weight) = (from + distance * wi, *radiance / pdf as f32);
+            Some(LightSample { position, distance, wi, weight, pdf: Some(pdf) })
         }
         Light::Quad { quad, radiance } => {
             let u = sampler.next_2d();
@@ -146,9 +163,25 @@ fn sample_light(light: &Light, from: DVec3, nearest: f64, sampler: &mut Sampler)
                 return None;
             }
             let pdf = distance.max(nearest).powi(2) / (cos * quad.area());
-            Some(LightSample { position, wi, weight: *radiance / pdf as f32, pdf: Some(pdf) })
+            Some(LightSample { position, distance, wi, weight: *radiance / pdf as f32, pdf: Some(pdf) })
         }
+        Light::Parallel(rays) => sample_parallel(rays, from, sampler),
     }
+}
+
+/// Samples the direction to a sun; the point of a beam's disc from which light comes to a point, `None` beside the beam and behind it.
+fn sample_parallel(rays: &ParallelRays, from: DVec3, sampler: &mut Sampler) -> Option<LightSample> {
+    let (direction, irradiance) = rays.sample_direction(sampler);
+    // An irradiance of the plane across the axis: across the direction it is greater by the cosine.
+    let weight = irradiance / direction.dot(rays.direction) as f32;
+    if rays.from_outside {
+        let wi = -direction;
+        return Some(LightSample { position: from + wi, distance: SUN_DISTANCE, wi, weight, pdf: None });
+    }
+    let distance = (from - rays.center).dot(direction);
+    let shines = distance > 0.0 && rays.crossing(from, direction).length_squared() <= 1.0;
+    let (position, wi) = (from - distance * direction, -direction);
+    shines.then_some(LightSample { position, distance, wi, weight, pdf: None })
 }
 
 /// `1 - cos` of the half angle under which a sphere appears; `None` from inside.
@@ -163,7 +196,7 @@ fn subtended(sphere: &Sphere, from: DVec3) -> Option<f64> {
 /// heuristic, whose weights still add up to 1.
 pub(in crate::transport) fn pdf_light(light: &Light, from: DVec3, wi: DVec3, distance: f64, n_light: DVec3) -> f64 {
     match light {
-        Light::Point { .. } => 0.0,
+        Light::Point { .. } | Light::Parallel(_) => 0.0,
         Light::Sphere { sphere, .. } => subtended(sphere, from).map_or(0.0, warp::pdf_uniform_cone),
         Light::Quad { quad, .. } => distance * distance / (wi.dot(n_light).abs() * quad.area()),
     }
@@ -183,7 +216,7 @@ mod tests {
         let pdf =
             |wi: DVec3| meet(&Ray::new(from, wi)).map_or(0.0, |(t, normal)| pdf_light(light, from, wi, t, normal));
         let sample = |sampler: &mut Sampler| {
-            let LightSample { position, wi, weight, pdf: sampled } = sample_light(light, from, 0.0, sampler)?;
+            let LightSample { position, wi, weight, pdf: sampled, .. } = sample_light(light, from, 0.0, sampler)?;
             let (t, normal) = meet(&Ray::new(from, wi)).unwrap_or(((position - from).length(), -wi));
             assert!(position.distance(from + t * wi) < 1e-6, "the position is where the ray arrives");
             let sampled = sampled.expect("an area light");

@@ -1,7 +1,7 @@
 //! Paths as they leave a light.
 
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, octahedral, warp};
-use crate::world::Light;
+use crate::world::{Light, ParallelRays, World};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -9,16 +9,19 @@ use std::f64::consts::PI;
 /// own light.
 const LEAST_DISTANCE: f64 = 1e-9;
 
-/// A ray that leaves a point of this light.
+/// A ray that leaves a point of this light; the ray of a sun begins before every surface.
 #[inline]
-pub(in crate::transport) fn ray_from_light(light: &Light, origin: DVec3, direction: DVec3) -> Ray {
+pub(in crate::transport) fn ray_from_light(world: &World, light: &Light, origin: DVec3, direction: DVec3) -> Ray {
+    if let Light::Parallel(rays) = light {
+        return Ray::new(rays.beginning(&world.aggregate, origin, direction), direction);
+    }
     Ray { t_min: LEAST_DISTANCE * light.magnitude(), ..Ray::new(origin, direction) }
 }
 
 /// The first ray of a light path.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::transport) struct Emission {
-    /// Point on the light.
+    /// Point on the light; of a sun, on its disc.
     pub(in crate::transport) origin: DVec3,
     /// Unit length.
     pub(in crate::transport) direction: DVec3,
@@ -29,9 +32,9 @@ pub(in crate::transport) struct Emission {
 /// A sampled point of a light.
 pub(super) struct Origin {
     pub(super) position: DVec3,
-    /// Unit normal of the light's surface; `None` for a point light.
+    /// Unit normal of the light's surface or of its disc; `None` for a point light.
     pub(super) normal: Option<DVec3>,
-    /// Intensity of a point light; radiance of an area light over the density of the point.
+    /// Intensity of a point light; radiance of an area light, irradiance of parallel rays, over the density of the point.
     pub(super) strength: Rgb,
 }
 
@@ -54,12 +57,20 @@ pub(super) fn sample_origin(light: &Light, sampler: &mut Sampler) -> Origin {
                 strength: *radiance * quad.area() as f32,
             }
         }
+        Light::Parallel(rays) => Origin {
+            position: rays.point(warp::concentric_disc(sampler.next_2d())),
+            normal: Some(rays.direction),
+            strength: rays.power(),
+        },
     }
 }
 
 /// Samples the first ray of a path in proportion to the light's emission.
 #[inline]
 pub(in crate::transport) fn emit(light: &Light, sampler: &mut Sampler) -> Emission {
+    if let Light::Parallel(rays) = light {
+        return emit_parallel(rays, warp::concentric_disc(sampler.next_2d()), 1.0 / rays.area(), sampler);
+    }
     let Origin { position, normal, strength } = sample_origin(light, sampler);
     let u = sampler.next_2d();
     match normal {
@@ -74,16 +85,30 @@ pub(in crate::transport) fn emit(light: &Light, sampler: &mut Sampler) -> Emissi
     }
 }
 
+/// The first ray of a path through a point of the disc of parallel rays, in coordinates along the axes of the disc, for a sample of this
+/// density (per area).
+#[inline]
+pub(super) fn emit_parallel(rays: &ParallelRays, at: DVec2, density: f64, sampler: &mut Sampler) -> Emission {
+    let (direction, irradiance) = rays.sample_direction(sampler);
+    Emission { origin: rays.point(at), direction, flux: irradiance / density as f32 }
+}
+
 /// Density of the paths of [`emit`] that leave this point of a light, per area across them at `point`, scene units.
 #[inline]
 pub(in crate::transport) fn density(light: &Light, light_point: DVec3, point: DVec3) -> f64 {
     let offset = point - light_point;
+    if let Light::Parallel(rays) = light {
+        let direction = offset.normalize_or(rays.direction);
+        let is_in = rays.crossing(point, direction).length_squared() <= 1.0;
+        return if is_in { 1.0 / (rays.area() * direction.dot(rays.direction)) } else { 0.0 };
+    }
     let distance_squared = offset.length_squared();
     let along = |normal: DVec3| normal.dot(offset).max(0.0) / distance_squared.sqrt();
     let per_steradian = match light {
         Light::Point { .. } => 0.25 / PI,
         Light::Sphere { sphere, .. } => along((light_point - sphere.center) / sphere.radius) / PI,
         Light::Quad { quad, .. } => along(quad.normal()) / PI,
+        Light::Parallel(_) => 0.0,
     };
     per_steradian / distance_squared
 }
@@ -124,7 +149,7 @@ mod tests {
             let basis_at = |origin: DVec3| match &light {
                 Light::Sphere { sphere, .. } => OrthonormalBasis::from_normal((origin - sphere.center).normalize()),
                 Light::Quad { quad, .. } => OrthonormalBasis::from_normal(quad.normal()),
-                Light::Point { .. } => unreachable!("no area light"),
+                Light::Point { .. } | Light::Parallel(_) => unreachable!("no area light"),
             };
             let sample = |sampler: &mut Sampler| {
                 let Emission { origin, direction, flux } = emit(&light, sampler);

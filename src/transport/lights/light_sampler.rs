@@ -12,6 +12,9 @@ pub(in crate::transport) const MOST_SAMPLED: usize = 8;
 /// Lights whose contributions are summed before the sampler looks at single ones.
 const CHUNK: usize = 16;
 
+/// Distance of the light that stands for parallel rays, in radii of their disc: its light is parallel up to the rounding of `f32`.
+const FAR_AWAY: f64 = 1e7;
+
 /// Samples lights in proportion to their expected contribution at a point.
 #[derive(Clone, Debug)]
 pub struct LightSampler {
@@ -42,9 +45,16 @@ impl LightSampler {
         let mut columns = Columns::default();
         for light in lights {
             let front = if let Light::Quad { quad, .. } = light { quad.normal() } else { DVec3::ZERO };
-            push(&mut columns.center, (light.center() - center).as_vec3());
+            let (at, radius) = match light {
+                Light::Parallel(rays) => {
+                    let far = FAR_AWAY * rays.radius;
+                    (rays.center - far * rays.direction, far * rays.half_angle.tan())
+                }
+                _ => (light.center(), light.bounding_radius()),
+            };
+            push(&mut columns.center, (at - center).as_vec3());
             push(&mut columns.front, front.as_vec3());
-            columns.bounding_radius.push(light.bounding_radius() as f32);
+            columns.bounding_radius.push(radius as f32);
             columns.intensity.push(greatest_intensity(light) as f32);
         }
         Self { columns, center }
@@ -110,13 +120,14 @@ fn push(columns: &mut [Vec<f32>; 3], value: Vec3) {
     columns.iter_mut().zip(value.to_array()).for_each(|(column, x)| column.push(x));
 }
 
-/// Greatest intensity of a light over the directions, of its strongest channel, W/sr.
+/// Greatest intensity of a light, or of the far light that stands for parallel rays, over the directions, of its strongest channel, W/sr.
 fn greatest_intensity(light: &Light) -> f64 {
     let strength = |c: Rgb| f64::from(c.max_element());
     match light {
         Light::Point { intensity, .. } => strength(*intensity),
         Light::Sphere { sphere, radiance } => strength(*radiance) * PI * sphere.radius * sphere.radius,
         Light::Quad { quad, radiance } => strength(*radiance) * quad.area(),
+        Light::Parallel(rays) => strength(rays.irradiance) * (FAR_AWAY * rays.radius).powi(2),
     }
 }
 

@@ -4,12 +4,14 @@
 //! |---|---|
 //! | `emission` | the first ray of a light path |
 //! | `light_sampler` | sampling of many lights by expected contribution |
-//! | `small_targets` | a quadtree over directions for objects that appear small from a light |
-//! | `cone` | cones of directions in which a light sees objects |
-//! | `projection_map` | directions in which a light meets mirrors and glass |
+//! | `small_targets` | a quadtree over a chart for objects that appear small from a light |
+//! | `cone` | cones of places in a chart |
+//! | `chart` | how the unit square of a projection map covers the first rays of paths |
+//! | `projection_map` | paths on which a light meets mirrors and glass |
 //! | `photon_emission` | how photons of interreflection leave a light |
 //! | `direct` | direct light at a vertex: next event estimation |
 
+mod chart;
 mod cone;
 pub(in crate::transport) mod direct;
 pub(in crate::transport) mod emission;

@@ -1,14 +1,15 @@
 //! How photons of interreflection leave a light: in all directions, or from a far light towards the scene.
 
 use super::ProjectionMap;
-use super::cone::{Cone, cones_of_objects};
+use super::chart::{Chart, cones_of_objects};
+use super::cone::Cone;
 use super::emission::{self, Emission};
 use crate::geometry::Primitive;
 use crate::math::Sampler;
 use crate::world::{Light, World};
 use glam::DVec3;
 
-/// Fraction of a light's sphere of directions that the scene fills, below which photons aim at the scene.
+/// Fraction of a light's chart that the scene fills, below which photons aim at the scene.
 const FAR: f64 = 1.0 / 16.0;
 /// Half the diagonal of a primitive's box over the distance from the light to the view, from which on photons do not aim at the primitive
 /// as a whole: if it is all around, an even share of the paths brings back 1e-4 of the light that the view has straight from the lamp.
@@ -35,10 +36,10 @@ impl PhotonEmission {
     fn new(world: &World, light: &Light, light_index: u64) -> Self {
         let are_wide: Vec<bool> = world.aggregate.primitives().iter().map(|p| is_wide(world, light, p)).collect();
         let is_aim = |p: u32| !are_wide[p as usize];
-        let cones: Option<Vec<Cone>> = cones_of_objects(world, light, &is_aim).into_values().collect();
+        let cones: Option<Vec<Cone>> = cones_of_objects(world, &Chart::new(light), &is_aim).into_values().collect();
         let view = if are_wide.contains(&true) { view_cone(world, light).map(Some) } else { Some(None) };
         let (Some(cones), Some(view)) = (cones, view) else { return Self::Everywhere };
-        let filled: f64 = cones.iter().chain(&view).map(Cone::fraction_of_sphere).sum();
+        let filled: f64 = cones.iter().chain(&view).map(Cone::fraction_of_chart).sum();
         if filled == 0.0 || filled > FAR {
             return Self::Everywhere;
         }
@@ -54,7 +55,7 @@ impl PhotonEmission {
         }
     }
 
-    /// Fraction of the sphere of directions that the paths share.
+    /// Fraction of the light's chart that the paths share.
     pub(in crate::transport) fn aimed_fraction(&self) -> f64 {
         match self {
             Self::Everywhere => 1.0,
@@ -67,10 +68,7 @@ impl PhotonEmission {
     pub(in crate::transport) fn density(&self, light: &Light, light_point: DVec3, point: DVec3) -> f64 {
         match self {
             Self::Everywhere => emission::density(light, light_point, point),
-            Self::Aimed(map) => {
-                let offset = point - light_point;
-                map.pdf(offset.normalize_or(DVec3::Z)) / offset.length_squared()
-            }
+            Self::Aimed(map) => map.path_density(light_point, point),
         }
     }
 }
@@ -83,6 +81,5 @@ fn is_wide(world: &World, light: &Light, primitive: &Primitive) -> bool {
 
 /// The cone in which the light sees the view and its surroundings; `None` if these surround the light.
 fn view_cone(world: &World, light: &Light) -> Option<Cone> {
-    let radius = VIEW * world.view.distance + light.bounding_radius();
-    Cone::around(world.view.center - light.center(), radius)
+    Chart::new(light).cone(world.view.center, VIEW * world.view.distance)
 }

@@ -1,18 +1,19 @@
-//! The projection map: directions in which a light meets the surfaces that its photons are to reach \[Jensen96\].
+//! The projection map: paths on which a light meets the surfaces that its photons are to reach \[Jensen96\].
 
-use super::cone::{Aim, Cone, cones_of_objects};
+use super::chart::{Aim, Chart, cones_of_objects, crossing_at};
+use super::cone::Cone;
 use super::emission::{self, Emission, Origin};
 use super::light_sampler::MOST_SAMPLED;
-use super::small_targets::{Cell, CellTree, Target, covered_areas};
+use super::small_targets::{Cell, CellTree, Place, PlaceFromSquare, Target, Targets};
 use crate::geometry::Primitive;
-use crate::math::{OrthonormalBasis, Sampler, Stream, octahedral, warp};
+use crate::math::{OrthonormalBasis, Ray, Sampler, Stream, warp};
 use crate::world::{Light, World};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Cells along a side of the square of directions: a cell subtends about 3 degrees, narrower than most objects.
+/// Cells along a side of the chart: of directions, a cell subtends about 3 degrees, narrower than most objects.
 const SIDE: usize = 64;
 /// Depth of the cells in a quadtree over the square.
 const DEPTH: u32 = SIDE.ilog2();
@@ -22,12 +23,12 @@ const PROBES_ALONG_SIDE: u64 = 2;
 /// Least cells that a thread probes at a time, some ten microseconds of work: with fewer, sharing the work costs more than the work; with
 /// more, a thread may wait for the last one.
 const CELLS_PER_TASK: usize = SIDE;
-/// Fraction of the paths that leave in all directions alike, in case the probes missed a specular surface (defensive sampling).
+/// Fraction of the paths that are even over the chart, in case the probes missed a specular surface (defensive sampling).
 const DEFENSIVE_FRACTION: f64 = 0.03;
-/// Diagonal of a primitive's bounding box over its distance from the light, below which all probe rays may miss the primitive. Two cells
-/// subtend about as many radians; a larger primitive does not slip between their probe rays.
+/// Diameter of a primitive in the chart (radians where the chart is of directions) below which all probe rays may miss the primitive. Two
+/// cells are about as wide; a larger primitive does not slip between their probe rays.
 const SMALL_PRIMITIVE: f64 = 0.1;
-/// Half the angle, radians, under which an object appears, below which the cells around it are refined: it fills less than a cell.
+/// Radius of an object in the chart (radians where the chart is of directions) below which the cells around it are refined: it fills less than a cell.
 const SMALL_OBJECT: f64 = 0.02;
 /// Least share of the paths for a small object beside larger ones: in proportion to its solid angle it might get none.
 const LEAST_SHARE: f64 = 1.0 / 64.0;
@@ -36,16 +37,17 @@ const LEAST_SHARES: f64 = 0.25;
 /// Rays to a small object that tell whether the light meets it.
 const RAYS_TO_SMALL_OBJECT: u64 = 32;
 
-/// A density over the sphere of directions, constant in each cell of the equal-area octahedral square \[Clarberg08\].
+/// A density of the first rays of paths over the chart of a light, constant in each cell.
 #[derive(Clone, Debug)]
 pub struct ProjectionMap {
+    chart: Chart,
     /// Cumulative distribution of the rows, `SIDE + 1` values from 0 to 1.
     rows: Vec<f64>,
     /// Cumulative distribution of the cells of each row.
     cells: Vec<[f64; SIDE + 1]>,
     /// The cells that small objects refine, by their index.
     trees: BTreeMap<usize, CellTree>,
-    /// Fraction of the sphere in which the light meets the surfaces.
+    /// Fraction of the chart in which the light meets the surfaces.
     covered: f64,
 }
 
@@ -57,27 +59,29 @@ impl ProjectionMap {
 
     /// The projection map of a light, from probe rays into every cell and to each object that appears small, and of a cone of directions.
     pub(super) fn build(world: &World, light: &Light, light_index: u64, cone: Option<Cone>, aim: &impl Aim) -> Self {
+        let chart = Chart::new(light);
         let is_small_cone = |cone: &Cone| cone.radius < SMALL_OBJECT;
-        let small: BTreeMap<u32, Cone> = cones_of_objects(world, light, aim)
+        let small: BTreeMap<u32, Cone> = cones_of_objects(world, &chart, aim)
             .into_iter()
             .filter_map(|(object, cone)| Some((object, cone.filter(is_small_cone)?)))
             .collect();
         let is_small = |p: u32| world.object_of(p).is_some_and(|object| small.contains_key(&object));
         let marks = |p: u32| aim(p) && !is_small(p);
         let along = if world.lights.len() > MOST_SAMPLED { 1 } else { PROBES_ALONG_SIDE };
-        let probes = Probes { world, light, light_index };
+        let place = chart.place_from_square();
+        let probes = Probes { world, light, light_index, chart };
         let seen: Vec<bool> = (0..SIDE * SIDE)
             .into_par_iter()
             .with_min_len(CELLS_PER_TASK)
             .map(|cell| (0..along * along).any(|probe| probes.meet_in_cell(cell, probe, along, &marks)))
             .collect();
         let mut is_marked = dilated(&seen);
-        for cell in cells_of_small_primitives(world, light, &marks) {
+        for cell in cells_of_small_primitives(world, &chart, &marks) {
             is_marked[cell] = true;
         }
         if let Some(wide) = cone.filter(|cone| !is_small_cone(cone)) {
             (0..SIDE * SIDE)
-                .filter(|&cell| cell_at(cell).may_meet(&wide.target()))
+                .filter(|&cell| cell_at(cell).may_meet(&wide.target(), place))
                 .for_each(|cell| is_marked[cell] = true);
         }
         let mut cones: Vec<Cone> = (0..)
@@ -88,15 +92,15 @@ impl ProjectionMap {
             })
             .collect();
         cones.extend(cone.filter(is_small_cone));
-        Self::from_cells(&is_marked, &cones)
+        Self::from_cells(chart, &is_marked, &cones)
     }
 
-    fn from_cells(is_marked: &[bool], cones: &[Cone]) -> Self {
+    fn from_cells(chart: Chart, is_marked: &[bool], cones: &[Cone]) -> Self {
         let count = is_marked.iter().filter(|&&is| is).count();
         let total = (SIDE * SIDE) as f64;
         let marked_area = count as f64 / total;
-        let (targets, areas) = targets(cones, marked_area);
-        let small_share: f64 = targets.iter().map(|target| target.share).sum();
+        let (targets, areas) = targets(cones, marked_area, chart.place_from_square());
+        let small_share: f64 = targets.list.iter().map(|target| target.share).sum();
         let rest = 1.0 - DEFENSIVE_FRACTION - small_share;
         let probability = |cell: usize| {
             let uniform = 1.0 / total;
@@ -126,50 +130,75 @@ impl ProjectionMap {
         }
         let all = rows[SIDE];
         rows.iter_mut().for_each(|x| *x /= all);
-        Self { rows, cells, trees, covered: marked_area + areas.iter().sum::<f64>() }
+        Self { chart, rows, cells, trees, covered: marked_area + areas.iter().sum::<f64>() }
     }
 
-    /// Samples a direction; returns it with its density per steradian. Monotonic in both numbers, so that stratified numbers give
-    /// stratified directions.
+    /// Samples a point of the unit square; returns it with its density. Monotonic in both numbers, so that stratified numbers give
+    /// stratified paths.
     #[inline]
-    fn sample(&self, u: DVec2) -> (DVec3, f64) {
+    fn sample(&self, u: DVec2) -> (DVec2, f64) {
         let (row, y, row_probability) = invert(&self.rows, u.y);
         let (column, x, cell_probability) = invert(&self.cells[row], u.x);
-        let pdf = row_probability * cell_probability * (SIDE * SIDE) as f64 / (4.0 * PI);
-        let (within, density) = self
+        let density = row_probability * cell_probability * (SIDE * SIDE) as f64;
+        let (within, in_tree) = self
             .trees
             .get(&(row * SIDE + column))
             .map_or((DVec2::new(x, y), 1.0), |tree| tree.sample(DVec2::new(x, y)));
-        let square = (DVec2::new(column as f64, row as f64) + within) / SIDE as f64;
-        (octahedral::direction_from_square(square), pdf * density)
+        ((DVec2::new(column as f64, row as f64) + within) / SIDE as f64, density * in_tree)
     }
 
-    /// The density of [`ProjectionMap::emit`] in a direction, per steradian.
-    pub(super) fn pdf(&self, direction: DVec3) -> f64 {
-        let square = octahedral::square_from_direction(direction) * SIDE as f64;
+    /// The density of [`ProjectionMap::sample`] at a point of the unit square.
+    fn density(&self, square: DVec2) -> f64 {
+        let square = square * SIDE as f64;
         let cell = square.floor().clamp(DVec2::ZERO, DVec2::splat((SIDE - 1) as f64));
         let (row, column) = (cell.y as usize, cell.x as usize);
         let probability =
             (self.rows[row + 1] - self.rows[row]) * (self.cells[row][column + 1] - self.cells[row][column]);
-        let density = self.trees.get(&(row * SIDE + column)).map_or(1.0, |tree| tree.density(square - cell));
-        probability * density * (SIDE * SIDE) as f64 / (4.0 * PI)
+        let in_tree = self.trees.get(&(row * SIDE + column)).map_or(1.0, |tree| tree.density(square - cell));
+        probability * (SIDE * SIDE) as f64 * in_tree
     }
 
-    /// Samples the first ray of a path towards the surfaces; `None` where the light does not shine in the sampled direction.
+    /// Density of the paths that leave this point of the light, per area across them at `point`, scene units.
+    pub(super) fn path_density(&self, light_point: DVec3, point: DVec3) -> f64 {
+        let offset = point - light_point;
+        let direction = offset.normalize_or(DVec3::Z);
+        match &self.chart {
+            Chart::Directions { .. } => {
+                self.density(self.chart.square_from_place(direction)) / (4.0 * PI * offset.length_squared())
+            }
+            Chart::Disc(rays) => {
+                let at = rays.crossing(point, direction);
+                let square = 0.5 * at + 0.5;
+                let is_in = at.abs().max_element() <= 1.0 && (rays.from_outside || at.length_squared() <= 1.0);
+                let per_area = self.density(square) / (2.0 * rays.radius).powi(2);
+                if is_in { per_area / direction.dot(rays.direction) } else { 0.0 }
+            }
+        }
+    }
+
+    /// Samples the first ray of a path towards the surfaces; `None` where the light does not shine there.
     #[inline]
     pub(in crate::transport) fn emit(&self, light: &Light, sampler: &mut Sampler) -> Option<Emission> {
+        if let Chart::Disc(rays) = &self.chart {
+            let (square, density) = self.sample(sampler.next_2d());
+            let (at, per_area) = (2.0 * square - 1.0, density / (2.0 * rays.radius).powi(2));
+            let shines = rays.from_outside || at.length_squared() <= 1.0;
+            return shines.then(|| emission::emit_parallel(rays, at, per_area, sampler));
+        }
         let Origin { position, normal, strength } = emission::sample_origin(light, sampler);
-        let (direction, pdf) = self.sample(sampler.next_2d());
+        let (square, density) = self.sample(sampler.next_2d());
+        let direction = self.chart.place_from_square()(square);
         let cos = normal.map_or(1.0, |n| n.dot(direction));
-        (cos > 0.0).then(|| Emission { origin: position, direction, flux: strength * (cos / pdf) as f32 })
+        let flux = strength * (cos / (density / (4.0 * PI))) as f32;
+        (cos > 0.0).then_some(Emission { origin: position, direction, flux })
     }
 
-    /// Fraction of the sphere of directions that the aimed paths share: everywhere, if the light meets none of the surfaces.
+    /// Fraction of the chart that the aimed paths share: all of it, if the light meets none of the surfaces.
     pub(in crate::transport) fn aimed_fraction(&self) -> f64 {
         if self.covered > 0.0 { self.covered } else { 1.0 }
     }
 
-    /// Fraction of the sphere of directions in which the light meets the surfaces, 0 to 1.
+    /// Fraction of the chart in which the light meets the surfaces, 0 to 1.
     pub fn covered(&self) -> f64 {
         self.covered
     }
@@ -194,6 +223,14 @@ struct Probes<'a> {
     world: &'a World,
     light: &'a Light,
     light_index: u64,
+    chart: Chart,
+}
+
+/// The part of a probe ray that its place in the chart leaves open.
+enum Start {
+    Origin(Origin),
+    /// The direction of a ray through a disc.
+    Direction(DVec3),
 }
 
 impl Probes<'_> {
@@ -201,34 +238,53 @@ impl Probes<'_> {
     fn meet_in_cell(&self, cell: usize, probe: u64, along: u64, is_aim: &impl Aim) -> bool {
         let index = cell as u64 * along * along + probe;
         let mut sampler = Sampler::new(0, Stream::Probe, self.light_index, index);
-        let origin = emission::sample_origin(self.light, &mut sampler);
+        let start = self.start(&mut sampler);
         let stratum = DVec2::new((probe % along) as f64, (probe / along) as f64);
         let within = (stratum + sampler.next_2d()) / along as f64;
         let corner = DVec2::new((cell % SIDE) as f64, (cell / SIDE) as f64);
-        let direction = octahedral::direction_from_square((corner + within) / SIDE as f64);
-        self.meet(&origin, direction, is_aim)
+        self.meet(&start, self.chart.place_from_square()((corner + within) / SIDE as f64), is_aim)
     }
 
-    /// Whether any of some rays in a cone of directions meets such a surface first.
+    /// Whether any of some rays in a cone meets such a surface first.
     fn meet_in_cone(&self, cone_index: u64, cone: Cone, is_aim: &impl Aim) -> bool {
-        let basis = OrthonormalBasis::from_normal(cone.direction);
-        // 1 - cos of the angle.
-        let height = 2.0 * (0.5 * cone.radius).sin().powi(2);
         (0..RAYS_TO_SMALL_OBJECT).any(|k| {
             let index =
                 (SIDE * SIDE) as u64 * PROBES_ALONG_SIDE * PROBES_ALONG_SIDE + cone_index * RAYS_TO_SMALL_OBJECT + k;
             let mut sampler = Sampler::new(0, Stream::Probe, self.light_index, index);
-            let origin = emission::sample_origin(self.light, &mut sampler);
-            self.meet(&origin, basis.world_from_local(warp::uniform_cone(sampler.next_2d(), height)), is_aim)
+            let start = self.start(&mut sampler);
+            let u = sampler.next_2d();
+            let place = match start {
+                Start::Origin(_) => {
+                    // 1 - cos of the angle.
+                    let height = 2.0 * (0.5 * cone.radius).sin().powi(2);
+                    OrthonormalBasis::from_normal(cone.middle).world_from_local(warp::uniform_cone(u, height))
+                }
+                Start::Direction(_) => cone.middle + (cone.radius * warp::concentric_disc(u)).extend(0.0),
+            };
+            self.meet(&start, place, is_aim)
         })
     }
 
-    fn meet(&self, origin: &Origin, direction: DVec3, is_aim: &impl Aim) -> bool {
-        if origin.normal.is_some_and(|normal| normal.dot(direction) <= 0.0) {
-            return false;
+    fn start(&self, sampler: &mut Sampler) -> Start {
+        match &self.chart {
+            Chart::Directions { .. } => Start::Origin(emission::sample_origin(self.light, sampler)),
+            Chart::Disc(rays) => Start::Direction(rays.sample_direction(sampler).0),
         }
-        let ray = emission::ray_from_light(self.light, origin.position, direction);
+    }
+
+    fn meet(&self, start: &Start, place: Place, is_aim: &impl Aim) -> bool {
+        let ray = match (&self.chart, start) {
+            (Chart::Disc(rays), Start::Direction(direction)) => self.ray(rays.point(crossing_at(place)), *direction),
+            (_, Start::Origin(origin)) if origin.normal.is_none_or(|normal| normal.dot(place) > 0.0) => {
+                self.ray(origin.position, place)
+            }
+            _ => return false,
+        };
         self.world.aggregate.closest_hit(&ray).is_some_and(|hit| is_aim(hit.primitive))
+    }
+
+    fn ray(&self, origin: DVec3, direction: DVec3) -> Ray {
+        emission::ray_from_light(self.world, self.light, origin, direction)
     }
 }
 
@@ -242,17 +298,16 @@ fn dilated(marked: &[bool]) -> Vec<bool> {
 }
 
 /// Cells towards primitives that appear smaller than [`SMALL_PRIMITIVE`].
-fn cells_of_small_primitives(world: &World, light: &Light, is_aim: &impl Aim) -> Vec<usize> {
-    let center = light.center();
+fn cells_of_small_primitives(world: &World, chart: &Chart, is_aim: &impl Aim) -> Vec<usize> {
     let mut cells = Vec::new();
     for (index, primitive) in world.aggregate.primitives().iter().enumerate() {
         if matches!(primitive, Primitive::Plane(_)) || !is_aim(index as u32) {
             continue;
         }
         let bounds = primitive.bounds();
-        let offset = bounds.center() - center;
-        if bounds.diagonal() < SMALL_PRIMITIVE * offset.length() {
-            let square = octahedral::square_from_direction(offset.normalize()) * SIDE as f64;
+        let Some(cone) = chart.cone_of_light_center(bounds.center(), 0.5 * bounds.diagonal()) else { continue };
+        let square = chart.square_from_place(cone.middle) * SIDE as f64;
+        if 2.0 * cone.radius < SMALL_PRIMITIVE && square.cmpge(DVec2::ZERO).all() {
             let (column, row) = (square.x as usize, square.y as usize);
             let range = |x: usize| x.saturating_sub(1)..(x + 2).min(SIDE);
             cells.extend(range(row).flat_map(|r| range(column).map(move |c| r * SIDE + c)));
@@ -263,14 +318,15 @@ fn cells_of_small_primitives(world: &World, light: &Light, is_aim: &impl Aim) ->
 
 /// The targets of the cones beside cells that cover this area of the unit square, and the areas that the targets cover. Each gets a share
 /// of the paths in proportion to its area, but not less than [`LEAST_SHARE`].
-fn targets(cones: &[Cone], marked_area: f64) -> (Vec<Target>, Vec<f64>) {
-    let mut targets: Vec<Target> = cones.iter().map(Cone::target).collect();
-    let areas = covered_areas(&targets);
+fn targets(cones: &[Cone], marked_area: f64, place_from_square: PlaceFromSquare) -> (Targets, Vec<f64>) {
+    let list: Vec<Target> = cones.iter().map(Cone::target).collect();
+    let mut targets = Targets { list, place_from_square };
+    let areas = targets.covered_areas();
     let least = LEAST_SHARE.min(LEAST_SHARES / cones.len() as f64);
     let total = marked_area + areas.iter().sum::<f64>();
     let weights: Vec<f64> = areas.iter().map(|area| (area / total).max(least)).collect();
     let sum = marked_area / total + weights.iter().sum::<f64>();
-    for (target, weight) in targets.iter_mut().zip(weights) {
+    for (target, weight) in targets.list.iter_mut().zip(weights) {
         target.share = (1.0 - DEFENSIVE_FRACTION) * weight / sum;
     }
     (targets, areas)
@@ -279,14 +335,37 @@ fn targets(cones: &[Cone], marked_area: f64) -> (Vec<Target>, Vec<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Rgb;
     use crate::math::chi_square::assert_has_density;
+    use crate::world::ParallelRays;
 
-    /// Marked cells divide all probability but the defensive fraction, which is even over the sphere.
+    /// A point light at the origin.
+    fn lamp() -> Light {
+        Light::Point { position: DVec3::ZERO, intensity: Rgb::ONE }
+    }
+
+    /// A beam of radius 2.
+    fn beam() -> ParallelRays {
+        ParallelRays {
+            direction: DVec3::new(0.6, 0.0, 0.8),
+            half_angle: 0.0,
+            irradiance: Rgb::ONE,
+            center: DVec3::new(1.0, 2.0, 3.0),
+            radius: 2.0,
+            from_outside: false,
+        }
+    }
+
+    fn some_cells() -> Vec<bool> {
+        (0..SIDE * SIDE).map(|cell| cell % 37 == 0 || cell / SIDE > 60).collect()
+    }
+
+    /// Marked cells divide all probability but the defensive fraction, which is even over the chart.
     #[test]
     fn samples_have_their_density() {
-        let cells: Vec<bool> = (0..SIDE * SIDE).map(|cell| cell % 37 == 0 || cell / SIDE > 60).collect();
+        let cells = some_cells();
         let marked = cells.iter().filter(|&&is| is).count() as f64;
-        let map = ProjectionMap::from_cells(&cells, &[]);
+        let map = ProjectionMap::from_cells(Chart::new(&lamp()), &cells, &[]);
         assert_eq!(map.covered(), marked / 4096.0);
         // A third of a cell aside, so that bins also show where in the cells samples lie.
         let aside = DVec2::splat(1.0 / (3.0 * SIDE as f64));
@@ -296,32 +375,66 @@ mod tests {
             DEFENSIVE_FRACTION + if is_marked { (1.0 - DEFENSIVE_FRACTION) * 4096.0 / marked } else { 0.0 }
         };
         let sample = |sampler: &mut Sampler| {
-            let (direction, pdf) = map.sample(sampler.next_2d());
-            let square = octahedral::square_from_direction(direction);
-            // Rounding may put a direction into the next cell.
+            let (square, sampled) = map.sample(sampler.next_2d());
+            // Rounding may put a point into the next cell.
             let near_edge = (square * SIDE as f64 - (square * SIDE as f64).round()).abs().min_element() < 1e-6;
-            assert!(near_edge || (4.0 * PI * pdf / density(square) - 1.0).abs() < 1e-9, "pdf {pdf} at {square}");
+            assert!(near_edge || (sampled / density(square) - 1.0).abs() < 1e-9, "density {sampled} at {square}");
             Some((square + aside).fract())
         };
         assert_has_density("projection map", sample, |p| density((p - aside + 1.0).fract()));
     }
 
+    /// With a wide and a narrow cone over marked cells.
+    #[test]
+    fn paths_from_a_lamp_have_the_density_that_mis_weights_take() {
+        let chart = Chart::new(&lamp());
+        let cone = |x: f64, y: f64, radius| Cone { middle: chart.place_from_square()(DVec2::new(x, y)), radius };
+        let map = ProjectionMap::from_cells(chart, &some_cells(), &[cone(0.3, 0.6, 0.3), cone(0.71, 0.24, 0.02)]);
+        let sample = |sampler: &mut Sampler| {
+            let Emission { origin, direction, flux } = map.emit(&lamp(), sampler)?;
+            let expected = 1.0 / map.path_density(origin, origin + direction);
+            assert!((f64::from(flux.x) / expected - 1.0).abs() < 1e-4, "the flux is 1 over the density: {flux}");
+            Some(chart.square_from_place(direction))
+        };
+        let density = |p| 4.0 * PI * map.path_density(DVec3::ZERO, 2.0 * chart.place_from_square()(p)) * 4.0;
+        assert_has_density("lamp", sample, density);
+    }
+
+    #[test]
+    fn paths_of_a_beam_have_the_density_that_mis_weights_take_within_its_disc() {
+        let (rays, light) = (beam(), Light::Parallel(beam()));
+        let chart = Chart::new(&light);
+        let cone = Cone { middle: chart.place_from_square()(DVec2::new(0.4, 0.6)), radius: 0.2 };
+        let map = ProjectionMap::from_cells(chart, &some_cells(), &[cone]);
+        let sample = |sampler: &mut Sampler| {
+            let Emission { origin, direction, .. } = map.emit(&light, sampler)?;
+            assert!(origin.distance(rays.center) <= 2.0 + 1e-9 && direction == rays.direction);
+            Some(0.5 * rays.crossing(origin, direction) + 0.5)
+        };
+        let density = |p: DVec2| {
+            let point = rays.point(2.0 * p - 1.0);
+            16.0 * map.path_density(point, point + 5.0 * rays.direction)
+        };
+        assert_has_density("beam", sample, density);
+    }
+
     #[test]
     fn densities_integrate_to_one_and_cover_everything() {
         let cells: Vec<bool> = (0..SIDE * SIDE).map(|cell| cell % 37 == 0).collect();
-        let map = ProjectionMap::from_cells(&cells, &[]);
+        let map = ProjectionMap::from_cells(Chart::new(&lamp()), &cells, &[]);
         let n = 256;
         let mut reciprocal = 0.0;
         let mut mean = DVec3::ZERO;
         for k in 0..n * n {
             let u = DVec2::new(f64::from(k % n) + 0.5, f64::from(k / n) + 0.5) / f64::from(n);
-            let (direction, pdf) = map.sample(u);
-            reciprocal += 1.0 / pdf / f64::from(n * n);
-            mean += direction / pdf / f64::from(n * n);
+            let (square, density) = map.sample(u);
+            let weight = 1.0 / density / f64::from(n * n);
+            reciprocal += weight;
+            mean += map.chart.place_from_square()(square) * weight;
         }
-        // The mean of 1 / pdf is the measure of the sphere; the midpoint rule sees most cells several times, the
+        // The mean of 1 / density is the area of the square; the midpoint rule sees most cells several times, the
         // defensive ones about twice.
-        assert!((reciprocal - 4.0 * PI).abs() < 0.02 * 4.0 * PI, "{reciprocal}");
-        assert!(mean.length() < 0.05 * 4.0 * PI, "{mean}");
+        assert!((reciprocal - 1.0).abs() < 0.02, "{reciprocal}");
+        assert!(mean.length() < 0.05, "{mean}");
     }
 }

@@ -1,7 +1,5 @@
-//! Small objects in a light's sphere of directions: a quadtree that refines the cells of a projection map where an object appears
-//! smaller than a cell.
+//! Small objects in a chart: a quadtree that refines the cells of a projection map where an object appears smaller than a cell.
 
-use crate::math::octahedral;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -13,18 +11,24 @@ const MAX_DEPTH: u32 = 32;
 /// stretches it to 1.21 at most.
 const CELL_REACH: f64 = 1.25;
 
-/// A cone of directions in which an object appears, and the probability with which it is to be sampled.
+/// A cone in which an object appears, and the probability with which it is to be sampled.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target {
-    /// Unit axis of the cone.
-    pub(super) direction: DVec3,
+    /// Middle of the cone.
+    pub(super) middle: Place,
     /// Half the angle of the cone, radians.
     pub(super) radius: f64,
     /// Share of the paths, 0 to 1.
     pub(super) share: f64,
 }
 
-/// A square of the equal-area octahedral map: at depth `d` the sphere has `2^d` of them along a side.
+/// A point of a chart: of the unit sphere, or of a square in the plane z = 0 with the same area as the sphere.
+pub(super) type Place = DVec3;
+
+/// The map from the unit square to places.
+pub(super) type PlaceFromSquare = fn(DVec2) -> Place;
+
+/// A square of a chart: at depth `d` the chart has `2^d` of them along a side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     pub(super) depth: u32,
@@ -49,9 +53,9 @@ pub(super) struct CellTree {
 }
 
 impl Cell {
-    fn center(self) -> DVec3 {
+    fn center(self, place: PlaceFromSquare) -> Place {
         let side = self.side();
-        octahedral::direction_from_square(DVec2::new((self.x as f64 + 0.5) * side, (self.y as f64 + 0.5) * side))
+        place(DVec2::new((self.x as f64 + 0.5) * side, (self.y as f64 + 0.5) * side))
     }
 
     /// Side in the unit square.
@@ -59,15 +63,15 @@ impl Cell {
         0.5f64.powi(self.depth as i32)
     }
 
-    /// Root of the solid angle, radians.
+    /// Root of the solid angle or area, units of the chart.
     fn width(self) -> f64 {
         (4.0 * PI).sqrt() * self.side()
     }
 
     /// Whether a point of the cell may be in the cone of the target; true also a little beside it.
-    pub(super) fn may_meet(self, target: &Target) -> bool {
+    pub(super) fn may_meet(self, target: &Target, place: PlaceFromSquare) -> bool {
         // The chord is shorter than the arc.
-        self.center().distance(target.direction) <= target.radius + CELL_REACH * self.width()
+        self.center(place).distance(target.middle) <= target.radius + CELL_REACH * self.width()
     }
 
     /// Whether the cell is as small as the target asks for.
@@ -85,43 +89,72 @@ impl Cell {
     }
 }
 
-/// Calls `visit` with each leaf of the tree under `cell` and the indices of the targets that it meets.
-fn for_each_leaf(cell: Cell, targets: &[Target], met: &[usize], visit: &mut impl FnMut(Cell, &[usize])) {
-    let met: Vec<usize> = met.iter().copied().filter(|&t| cell.may_meet(&targets[t])).collect();
-    if met.iter().all(|&t| cell.is_fine_for(&targets[t])) {
-        return visit(cell, &met);
-    }
-    cell.children().into_iter().for_each(|child| for_each_leaf(child, targets, &met, visit));
+/// Targets in a chart.
+#[derive(Debug)]
+pub(super) struct Targets {
+    pub(super) list: Vec<Target>,
+    pub(super) place_from_square: PlaceFromSquare,
 }
 
-/// The area in the unit square that the leaves of each target cover.
-pub(super) fn covered_areas(targets: &[Target]) -> Vec<f64> {
-    let mut areas = vec![0.0; targets.len()];
-    let all: Vec<usize> = (0..targets.len()).collect();
-    for_each_leaf(Cell { depth: 0, x: 0, y: 0 }, targets, &all, &mut |leaf, met| {
-        met.iter().for_each(|&t| areas[t] += leaf.side() * leaf.side());
-    });
-    areas
+impl Targets {
+    /// The indices of all targets.
+    fn all(&self) -> Vec<usize> {
+        (0..self.list.len()).collect()
+    }
+
+    /// Those of some targets that a cell meets.
+    fn met(&self, cell: Cell, among: &[usize]) -> Vec<usize> {
+        among.iter().copied().filter(|&t| cell.may_meet(&self.list[t], self.place_from_square)).collect()
+    }
+
+    /// Whether the cell is as small as each of these targets asks for.
+    fn are_resolved(&self, cell: Cell, met: &[usize]) -> bool {
+        met.iter().all(|&t| cell.is_fine_for(&self.list[t]))
+    }
+
+    /// Calls `visit` with each leaf of the tree under `cell` and the indices of the targets that it meets.
+    fn for_each_leaf(&self, cell: Cell, among: &[usize], visit: &mut impl FnMut(Cell, &[usize])) {
+        let met = self.met(cell, among);
+        if self.are_resolved(cell, &met) {
+            return visit(cell, &met);
+        }
+        cell.children().into_iter().for_each(|child| self.for_each_leaf(child, &met, visit));
+    }
+
+    /// The area in the unit square that the leaves of each target cover.
+    pub(super) fn covered_areas(&self) -> Vec<f64> {
+        let mut areas = vec![0.0; self.list.len()];
+        self.for_each_leaf(Cell { depth: 0, x: 0, y: 0 }, &self.all(), &mut |leaf, met| {
+            met.iter().for_each(|&t| areas[t] += leaf.side() * leaf.side());
+        });
+        areas
+    }
 }
 
 impl CellTree {
     /// The tree of a cell, and the cell's probability, for targets that cover these areas over an even density of probability per area of
     /// the unit square; `None` where the cell meets no target.
-    pub(super) fn new(cell: Cell, targets: &[Target], areas: &[f64], even: f64) -> Option<(Self, f64)> {
-        let all: Vec<usize> = (0..targets.len()).filter(|&t| cell.may_meet(&targets[t])).collect();
+    pub(super) fn new(cell: Cell, targets: &Targets, areas: &[f64], even: f64) -> Option<(Self, f64)> {
+        let all = targets.met(cell, &targets.all());
         if all.is_empty() {
             return None;
         }
         let mut tree = Self { nodes: Vec::new() };
-        let density = |met: &[usize]| even + met.iter().map(|&t| targets[t].share / areas[t]).sum::<f64>();
+        let density = |met: &[usize]| even + met.iter().map(|&t| targets.list[t].share / areas[t]).sum::<f64>();
         let (_, mass) = tree.add(cell, targets, &all, &density);
         Some((tree, mass)).filter(|(tree, _)| !tree.nodes.is_empty())
     }
 
     /// Adds the nodes of a cell; returns the index of its node (0 for a leaf) and its probability.
-    fn add(&mut self, cell: Cell, targets: &[Target], met: &[usize], density: &impl Fn(&[usize]) -> f64) -> (u32, f64) {
-        let met: Vec<usize> = met.iter().copied().filter(|&t| cell.may_meet(&targets[t])).collect();
-        if met.iter().all(|&t| cell.is_fine_for(&targets[t])) {
+    fn add(
+        &mut self,
+        cell: Cell,
+        targets: &Targets,
+        among: &[usize],
+        density: &impl Fn(&[usize]) -> f64,
+    ) -> (u32, f64) {
+        let met = targets.met(cell, among);
+        if targets.are_resolved(cell, &met) {
             return (0, density(&met) * cell.side() * cell.side());
         }
         let index = self.nodes.len();
@@ -183,6 +216,9 @@ fn split(u: &mut f64, first: f64, second: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::octahedral;
+
+    const DIRECTIONS: PlaceFromSquare = octahedral::direction_from_square;
 
     #[test]
     fn no_point_of_a_cell_is_farther_from_its_center_than_its_reach() {
@@ -192,7 +228,7 @@ mod tests {
                 let cell = Cell { depth, x: (k * 7919) % along, y: (k * 104_729 + k / 3) % along };
                 for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (0.5, 0.0), (0.0, 0.5)] {
                     let corner = DVec2::new(cell.x as f64 + x, cell.y as f64 + y) * cell.side();
-                    let distance = octahedral::direction_from_square(corner).distance(cell.center());
+                    let distance = DIRECTIONS(corner).distance(cell.center(DIRECTIONS));
                     assert!(distance <= CELL_REACH * cell.width(), "{cell:?}: {}", distance / cell.width());
                 }
             }
@@ -207,8 +243,9 @@ mod tests {
             octahedral::direction_from_square(DVec2::new(cell.x as f64 + x, cell.y as f64 + y) * cell.side())
         };
         let targets = [(0.3, 0.4, 1e-3, 0.4), (0.8, 0.7, 1e-6, 0.2)];
-        let targets = targets.map(|(x, y, radius, share)| Target { direction: at(x, y), radius, share });
-        let areas = covered_areas(&targets);
+        let targets = targets.map(|(x, y, radius, share)| Target { middle: at(x, y), radius, share });
+        let targets = Targets { list: targets.to_vec(), place_from_square: DIRECTIONS };
+        let areas = targets.covered_areas();
         let (tree, mass) = CellTree::new(cell, &targets, &areas, 1.0).expect("the cell holds both");
         let area = cell.side() * cell.side();
         assert!((mass - area - 0.6).abs() < 1e-12, "the even density and both shares: {mass}");
@@ -218,12 +255,12 @@ mod tests {
             let u = DVec2::new(f64::from(k % n) + 0.5, f64::from(k / n) + 0.5) / f64::from(n);
             let (point, density) = tree.sample(u);
             let direction = at(point.x, point.y);
-            for (count, target) in in_cone.iter_mut().zip(&targets) {
-                *count += i32::from(direction.distance(target.direction) < target.radius);
+            for (count, target) in in_cone.iter_mut().zip(&targets.list) {
+                *count += i32::from(direction.distance(target.middle) < target.radius);
             }
             assert!((tree.density(point) / density - 1.0).abs() < 1e-9, "at {point}");
         }
-        for (k, target) in targets.iter().enumerate() {
+        for (k, target) in targets.list.iter().enumerate() {
             let cone = PI * target.radius * target.radius / (4.0 * PI) / areas[k];
             let expected = cone * target.share / mass * f64::from(n * n);
             assert!(cone > 0.4, "the leaves fit the cone: {cone}");

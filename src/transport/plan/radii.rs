@@ -60,8 +60,11 @@ pub struct Radii {
 }
 
 /// Width of the blur at the edges of a light's shadows in view, scene units: as wide as the light, less if the light is farther from what
-/// the camera sees than the camera is.
+/// the camera sees than the camera is; for a sun, of an object as far from its shadow as the camera.
 pub(super) fn blur(world: &World, light: &Light) -> f64 {
+    if let Light::Parallel(rays) = light {
+        return rays.half_angle.tan() * world.view.distance;
+    }
     let near = world.view.distance.max(world.view.radius());
     light.bounding_radius() * near / light.center().distance(world.view.center).max(near)
 }

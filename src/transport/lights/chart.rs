@@ -1,0 +1,106 @@
+//! Charts: how the unit square of a projection map covers the first rays of a light's paths.
+
+use super::cone::Cone;
+use super::small_targets::{Place, PlaceFromSquare};
+use crate::geometry::Primitive;
+use crate::math::{Aabb, octahedral};
+use crate::world::{Light, ParallelRays, World};
+use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// A function that tells whether photons are to reach a primitive.
+pub(super) trait Aim: Fn(u32) -> bool + Sync {}
+impl<F: Fn(u32) -> bool + Sync> Aim for F {}
+
+/// The map from the unit square to the first rays of paths; it keeps areas.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Chart {
+    /// To the directions of paths from a ball that holds the light: the equal-area octahedral map \[Clarberg08\].
+    Directions { center: DVec3, radius: f64 },
+    /// To the points of the square around the disc of parallel rays.
+    Disc(ParallelRays),
+}
+
+impl Chart {
+    /// The chart of a light.
+    pub(super) fn new(light: &Light) -> Self {
+        match light {
+            Light::Parallel(rays) => Self::Disc(*rays),
+            _ => Self::Directions { center: light.center(), radius: light.bounding_radius() },
+        }
+    }
+
+    /// The map from the square to places.
+    #[inline]
+    pub(super) fn place_from_square(&self) -> PlaceFromSquare {
+        match self {
+            Self::Directions { .. } => octahedral::direction_from_square,
+            Self::Disc(_) => flat_place_from_square,
+        }
+    }
+
+    /// Where a place lies in the square; beyond it for a place in the plane beyond the square.
+    pub(super) fn square_from_place(&self, place: Place) -> DVec2 {
+        match self {
+            Self::Directions { .. } => octahedral::square_from_direction(place),
+            Self::Disc(_) => place.truncate() / flat_side() + 0.5,
+        }
+    }
+
+    /// The places of paths that may meet a ball; `None` if they surround the light.
+    pub(super) fn cone(&self, center: DVec3, radius: f64) -> Option<Cone> {
+        match self {
+            Self::Directions { radius: of_light, .. } => self.cone_of_light_center(center, radius + of_light),
+            Self::Disc(_) => self.cone_of_light_center(center, radius),
+        }
+    }
+
+    /// The places of paths from the center of the light that may meet a ball; `None` if they surround the light.
+    pub(super) fn cone_of_light_center(&self, center: DVec3, radius: f64) -> Option<Cone> {
+        match self {
+            Self::Directions { center: from, .. } => Cone::around(center - *from, radius),
+            Self::Disc(rays) => {
+                // A path aslant meets the ball beside its place.
+                let aside = (center - rays.center).dot(rays.direction).abs() * rays.half_angle.tan();
+                let radius = (radius + aside) * flat_side() / (2.0 * rays.radius);
+                let middle = flat_place(rays.crossing(center, rays.direction));
+                (radius < flat_side()).then_some(Cone { middle, radius })
+            }
+        }
+    }
+}
+
+/// Side of the square in the plane.
+fn flat_side() -> f64 {
+    (4.0 * PI).sqrt()
+}
+
+fn flat_place_from_square(square: DVec2) -> Place {
+    ((square - 0.5) * flat_side()).extend(0.0)
+}
+
+/// The place of a point of the plane of parallel rays with these coordinates, radii of the disc.
+fn flat_place(crossing: DVec2) -> Place {
+    (0.5 * flat_side() * crossing).extend(0.0)
+}
+
+/// The point of the plane of parallel rays at a place: coordinates, radii of the disc.
+#[inline]
+pub(super) fn crossing_at(place: Place) -> DVec2 {
+    place.truncate() / (0.5 * flat_side())
+}
+
+/// The places of paths to objects with surfaces to reach, from all points of the light; `None` for an object around the light.
+pub(super) fn cones_of_objects(world: &World, chart: &Chart, aim: &impl Aim) -> BTreeMap<u32, Option<Cone>> {
+    let mut bounds = BTreeMap::<u32, Aabb>::new();
+    for (p, primitive) in (0..).zip(world.aggregate.primitives()) {
+        if let Some(object) = world.object_of(p).filter(|_| aim(p)) {
+            let unbounded = Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+            let of_primitive = if matches!(primitive, Primitive::Plane(_)) { unbounded } else { primitive.bounds() };
+            let of_object = bounds.entry(object).or_insert(Aabb::EMPTY);
+            *of_object = of_object.union(&of_primitive);
+        }
+    }
+    bounds.iter().map(|(&object, b)| (object, chart.cone(b.center(), 0.5 * b.diagonal()))).collect()
+}
