@@ -7,7 +7,7 @@
 //! | `light` | [`Light`]: points, spheres, quads, suns and beams that emit |
 //! | `texture` | [`Image`]: decoded textures |
 //! | `material` | [`Material`] with its textures; [`Scattering`] at a point |
-//! | `shared_edges` | [`SharedEdges`] between the patches of an object |
+//! | `sheets/` | the smooth surfaces that the patches of an object make |
 //! | `surface` | [`Surface`], the object or light of a primitive; [`SurfacePoint`], a hit as light transport reads it |
 //! | `bodies/` | bodies of glass: which of them contain a point, and which of these counts |
 //! | `view` | [`View`]: where the surfaces are that the camera sees |
@@ -26,7 +26,7 @@ mod parallel_rays;
 mod prepare;
 mod prepared;
 mod probes;
-mod shared_edges;
+mod sheets;
 mod surface;
 mod texture;
 mod view;
@@ -40,7 +40,7 @@ pub use material::{Lobe, Material, Scattering};
 pub use parallel_rays::ParallelRays;
 pub use prepare::prepare;
 pub use prepared::World;
-pub use shared_edges::SharedEdges;
+pub use sheets::SharedEdges;
 pub use surface::{Surface, SurfacePoint};
 pub use texture::Image;
 pub use view::View;

@@ -1,7 +1,7 @@
 use super::bodies::{self, Surroundings};
 use super::material::{Model, Relief, Source};
 use super::probes;
-use super::shared_edges::shared_edges;
+use super::sheets::welded_sheets;
 use super::texture::{self, TextureKey};
 use super::{Camera, Contacts, Image, Light, Material, ParallelRays, PrepareError, SharedEdges, Surface, View, World};
 use crate::geometry::bezier::{ControlNet, Patch};
@@ -122,14 +122,22 @@ fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Su
             let user = format!("object `{}`", object.name);
             PrepareError::UnknownName { user, kind: "material", name: object.material.clone() }
         })?;
-        let surface = |shared| Surface::Object { object: index as u32, material: material as u32, body: None, shared };
+        // Each sheet is named after its first primitive.
+        let first = surfaces.len() as u32;
+        let surface = |sheet, shared| Surface::Object {
+            object: index as u32,
+            material: material as u32,
+            body: None,
+            sheet: first + sheet,
+            shared,
+        };
         if let Shape::Bezier(bezier) = &object.shape {
-            let nets = bezier.placed_nets();
-            surfaces.extend(shared_edges(&nets).into_iter().map(surface));
+            let mut nets = bezier.placed_nets();
+            surfaces.extend(welded_sheets(&mut nets).into_iter().map(|place| surface(place.sheet, place.shared)));
             let is_mirrored = bezier.transform.is_mirroring();
             descriptions.extend(nets.into_iter().map(|net| Description::Patch(Box::new(net), is_mirrored)));
         } else {
-            surfaces.push(surface(SharedEdges::default()));
+            surfaces.push(surface(0, SharedEdges::default()));
             descriptions.push(Description::Ready(simple_primitive(&object.shape)));
         }
     }

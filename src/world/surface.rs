@@ -13,7 +13,10 @@ pub enum Surface {
         material: u32,
         /// The rank of the body that it bounds, if it is of glass.
         body: Option<u32>,
-        /// Edges across which the surface continues in another patch.
+        /// The smooth surface of the object that it belongs to; a number in the world. Photons of other sheets lie across a crease or
+        /// a gap.
+        sheet: u32,
+        /// Edges across which the sheet continues in another patch.
         shared: SharedEdges,
     },
     /// The surface of an area light, by the index of the light in the world.

@@ -104,9 +104,9 @@ impl<'a> GlobalPhotonTracer<'a> {
         let counters = &mut self.stored.counters;
         counters.rays += 1;
         let hit = self.world.closest_hit(&path.ray)?;
-        let Surface::Object { object, material, .. } = self.world.surfaces[hit.primitive as usize] else { return None };
+        let Surface::Object { sheet, material, .. } = self.world.surfaces[hit.primitive as usize] else { return None };
         path.flux *= self.world.transmittance(&path.media, hit.t);
-        let vertex = Vertex::at_hit(self.world, &path.ray, hit, [object, material], counters);
+        let vertex = Vertex::at_hit(self.world, &path.ray, hit, [sheet, material], counters);
         if path.bounces < self.world.max_bounces {
             self.store(path, &vertex);
         }

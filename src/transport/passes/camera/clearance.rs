@@ -9,8 +9,10 @@ pub(super) fn clearance(world: &World, vertex: &Vertex, limits: Clearance) -> Cl
     if matches!(primitive, Primitive::Patch(_)) {
         return Clearance { any: 0.0, standing: f64::INFINITY };
     }
-    let is_own =
-        |p: u32| matches!(world.surfaces[p as usize], Surface::Object { object, .. } if object == vertex.object);
+    let Surface::Object { object: own, .. } = world.surfaces[vertex.point.hit.primitive as usize] else {
+        return Clearance::FREE;
+    };
+    let is_own = |p: u32| matches!(world.surfaces[p as usize], Surface::Object { object, .. } if object == own);
     let position = vertex.point.position;
     let any = world.aggregate.distance(position, limits.any, |p| !is_own(p));
     let stands = |p: u32| match primitive {

@@ -1,0 +1,20 @@
+//! Sheets: the patches of an object that make one smooth surface, over whose seams a density estimate goes on.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `shared_edges` | [`SharedEdges`] of a patch with its sheet |
+//! | `edge` | an edge of a patch, and how near another one must be to be the same |
+//! | `union_find` | sets of control points and of patches |
+//! | `seam` | pairs of edges at the same place |
+//! | `weld` | makes the control points of such edges equal |
+//! | `sheet` | from the patches of an object to its sheets |
+
+mod edge;
+mod seam;
+mod shared_edges;
+mod sheet;
+mod union_find;
+mod weld;
+
+pub use shared_edges::SharedEdges;
+pub(super) use sheet::welded_sheets;
