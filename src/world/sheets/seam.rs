@@ -53,7 +53,7 @@ pub(super) fn seams(edges: &[Edge]) -> Vec<Seam> {
     pairs
 }
 
-/// All pairs of edges that are as near as their tolerances. The edges lie in grids of cells as large as the tolerances, one for each
+/// All pairs of edges that are as near as their tolerances. The edges lie in grids of cells twice as large as the tolerances, one for each
 /// power of two; an edge looks for partners with a tolerance as large as its own.
 fn pairs(edges: &[Edge]) -> Vec<Seam> {
     let levels: BTreeSet<i32> = edges.iter().filter_map(level).collect();
@@ -85,9 +85,10 @@ fn level(edge: &Edge) -> Option<i32> {
     (tolerance > 0.0 && tolerance.is_finite()).then(|| tolerance.log2().floor() as i32)
 }
 
-/// The cell of a point in the grid of a level; cells are more than a tolerance of that level wide.
+/// The cell of a point in the grid of a level; cells are more than two tolerances of that level wide, so
+/// that the neighbourhood of a point lies in at most two cells along each axis.
 fn cell(point: [f64; 3], level: i32) -> [i64; 3] {
-    point.map(|x| (x * 2f64.powi(-level - 1)).floor() as i64)
+    point.map(|x| (x * 2f64.powi(-level - 2)).floor() as i64)
 }
 
 /// The pair of two edges, if they are at the same place. The edges of one patch may meet if they are opposite, as on a tube.

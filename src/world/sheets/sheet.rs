@@ -94,6 +94,17 @@ mod tests {
         }
     }
 
+    /// Wherever the edges lie in the grid of cells in which partners are looked for.
+    #[test]
+    fn edges_of_any_size_and_place_meet() {
+        for k in 0..200 {
+            let (size, place) = ((0.1 * f64::from(k)).exp2(), DVec3::new(0.37, -0.73, 1.11) * f64::from(k));
+            let mut nets = grid(2, 0.0);
+            nets.iter_mut().for_each(|net| *net = net.map(|p| size * (p + place)));
+            assert_eq!(welded_sheets(&mut nets).iter().map(|place| place.sheet).collect::<Vec<_>>(), [0; 4], "{k}");
+        }
+    }
+
     #[test]
     fn edges_in_any_direction_meet() {
         let turned = |net: &ControlNet| ControlNet { points: from_fn(|i| from_fn(|j| net.points[j][3 - i])) };
@@ -143,7 +154,7 @@ mod tests {
         let sector = |k: i32| {
             let angle = move |v: f64| (f64::from(k) + v) * TAU / 16.0;
             let point = move |r: f64, v: f64| DVec3::new(r * angle(v).cos(), r * angle(v).sin(), 1e-9 * f64::from(k));
-            net(move |u, v| point(u, v))
+            net(point)
         };
         let mut nets: Vec<_> = (0..16).map(sector).collect();
         for place in welded_sheets(&mut nets) {
