@@ -22,10 +22,10 @@ pub(super) fn world(text: &str) -> World {
 /// The vertex at a ray's first hit.
 pub(super) fn vertex(world: &World, ray: &Ray) -> Vertex {
     let hit = world.aggregate.closest_hit(ray).expect("the ray meets a surface");
-    let Surface::Object { sheet, material, .. } = world.surfaces[hit.primitive as usize] else {
+    let Surface::Object { front_side, material, .. } = world.surfaces[hit.primitive as usize] else {
         panic!("the ray meets a light")
     };
-    Vertex::at_hit(world, ray, hit, [sheet, material], &mut Counters::default())
+    Vertex::at_hit(world, ray, hit, [front_side, material], &mut Counters::default())
 }
 
 /// A visible point of a white surface in the plane y = 0, at its origin.

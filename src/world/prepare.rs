@@ -1,9 +1,9 @@
 use super::bodies::{self, Surroundings};
 use super::material::{Model, Relief, Source};
 use super::probes;
-use super::sheets::welded_sheets;
+use super::sheets::{Place, welded_sheets};
 use super::texture::{self, TextureKey};
-use super::{Camera, Contacts, Image, Light, Material, ParallelRays, PrepareError, SharedEdges, Surface, View, World};
+use super::{Camera, Contacts, Image, Light, Material, ParallelRays, PrepareError, Surface, View, World};
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
 use crate::math::{Aabb, Rgb};
@@ -122,22 +122,22 @@ fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Su
             let user = format!("object `{}`", object.name);
             PrepareError::UnknownName { user, kind: "material", name: object.material.clone() }
         })?;
-        // Each sheet is named after its first primitive.
+        // Each sheet has the number of its first primitive.
         let first = surfaces.len() as u32;
-        let surface = |sheet, shared| Surface::Object {
+        let surface = |place: Place| Surface::Object {
             object: index as u32,
             material: material as u32,
             body: None,
-            sheet: first + sheet,
-            shared,
+            front_side: (first + place.sheet) << 1 | u32::from(!place.is_flipped),
+            shared: place.shared,
         };
         if let Shape::Bezier(bezier) = &object.shape {
             let mut nets = bezier.placed_nets();
-            surfaces.extend(welded_sheets(&mut nets).into_iter().map(|place| surface(place.sheet, place.shared)));
+            surfaces.extend(welded_sheets(&mut nets).into_iter().map(surface));
             let is_mirrored = bezier.transform.is_mirroring();
             descriptions.extend(nets.into_iter().map(|net| Description::Patch(Box::new(net), is_mirrored)));
         } else {
-            surfaces.push(surface(0, SharedEdges::default()));
+            surfaces.push(surface(Place::default()));
             descriptions.push(Description::Ready(simple_primitive(&object.shape)));
         }
     }

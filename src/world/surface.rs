@@ -13,9 +13,9 @@ pub enum Surface {
         material: u32,
         /// The rank of the body that it bounds, if it is of glass.
         body: Option<u32>,
-        /// The smooth surface of the object that it belongs to; a number in the world. Photons of other sheets lie across a crease or
-        /// a gap.
-        sheet: u32,
+        /// The side of its sheet to which its normal points: a number in the world, whose last bit tells the sides of one sheet apart.
+        /// A sheet is a smooth surface of an object; photons of other sheets lie across a crease or a gap.
+        front_side: u32,
         /// Edges across which the sheet continues in another patch.
         shared: SharedEdges,
     },

@@ -175,7 +175,7 @@ mod tests {
         let hit = Hit { t: 1.0, primitive: 0, u: 0.5, v: 0.5 };
         let point = SurfacePoint { position: DVec3::ZERO, n_geom: DVec3::Y, front: true, hit };
         let scattering = Scattering { albedo: Rgb::ONE, lobe: Lobe::None };
-        Vertex { point, sheet: 0, material: 0, scattering, n_side: DVec3::Y, n_shade: DVec3::Y, wo: DVec3::Y }
+        Vertex { point, side: 0, material: 0, scattering, n_side: DVec3::Y, n_shade: DVec3::Y, wo: DVec3::Y }
     }
 
     fn sampler(lights: &[Light]) -> LightSampler {

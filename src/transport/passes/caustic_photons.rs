@@ -90,12 +90,12 @@ impl<'a> CausticTracer<'a> {
     fn follow(&mut self, mut branch: Branch, weak: f32, sampler: &mut Sampler) {
         self.found.counters.rays += 1;
         let Some(hit) = self.world.closest_hit(&branch.ray) else { return };
-        let Surface::Object { sheet, material, .. } = self.world.surfaces[hit.primitive as usize] else { return };
+        let Surface::Object { front_side, material, .. } = self.world.surfaces[hit.primitive as usize] else { return };
         if branch.bounces == 0 && !self.world.materials[material as usize].is_specular() {
             return;
         }
         branch.flux *= self.world.transmittance(&branch.media, hit.t);
-        let ids = [sheet, material];
+        let ids = [front_side, material];
         let vertex = Vertex::at_hit(self.world, &branch.ray, hit, ids, &mut self.found.counters);
         if vertex.scatters() && branch.bounces > 0 && branch.bounces < self.world.max_bounces {
             self.leave_photon(&branch, &vertex);

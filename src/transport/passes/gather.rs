@@ -295,7 +295,7 @@ mod tests {
             flux: IRRADIANCE * 4.0 / (SIDE * SIDE) as f32,
             wi: Vec3::Y,
             cos: 1.0,
-            tag: photon::tag(0, true, bounces),
+            tag: photon::tag(1, bounces),
         };
         (0..SIDE * SIDE).map(photon).collect()
     }
@@ -305,7 +305,7 @@ mod tests {
         VisiblePoint {
             position: (DVec3::new(2.0 * u - 1.0, 0.0, 0.0) - world.view.origin).as_vec3(),
             uv: DVec2::new(u, 0.5),
-            tag: photon::tag(0, true, 0),
+            tag: photon::tag(1, 0),
             photon_bounces: 3,
             throughput: Rgb::splat(0.5),
             scattering: Scattering { albedo: Rgb::splat(0.5), lobe: Lobe::None },
@@ -371,7 +371,7 @@ mod tests {
         assert!(radiance(&photons(&world, 3)) > 0.0);
         assert_eq!(radiance(&photons(&world, 4)), 0.0, "one event too many");
         let mut below = photons(&world, 1);
-        below.iter_mut().for_each(|photon| photon.tag = photon::tag(0, false, 1));
+        below.iter_mut().for_each(|photon| photon.tag = photon::tag(0, 1));
         assert_eq!(radiance(&below), 0.0, "on the other side");
     }
 }

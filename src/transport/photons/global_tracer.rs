@@ -104,9 +104,11 @@ impl<'a> GlobalPhotonTracer<'a> {
         let counters = &mut self.stored.counters;
         counters.rays += 1;
         let hit = self.world.closest_hit(&path.ray)?;
-        let Surface::Object { sheet, material, .. } = self.world.surfaces[hit.primitive as usize] else { return None };
+        let Surface::Object { front_side, material, .. } = self.world.surfaces[hit.primitive as usize] else {
+            return None;
+        };
         path.flux *= self.world.transmittance(&path.media, hit.t);
-        let vertex = Vertex::at_hit(self.world, &path.ray, hit, [sheet, material], counters);
+        let vertex = Vertex::at_hit(self.world, &path.ray, hit, [front_side, material], counters);
         if path.bounces < self.world.max_bounces {
             self.store(path, &vertex);
         }
@@ -287,7 +289,7 @@ mod tests {
         let count = |bounces: u32| found.photons.iter().filter(|p| p.tag & MAX_TAG_BOUNCES == bounces).count() as u64;
         assert_eq!([0, 1, 2, 3, 4, 5].map(count), [0, PATHS, PATHS, PATHS, PATHS, 0], "white keeps every path");
         // The room is object 0, seen from inside.
-        assert!(found.photons.iter().all(|p| p.tag & !MAX_TAG_BOUNCES == photon::tag(0, false, 0)));
+        assert!(found.photons.iter().all(|p| p.tag & !MAX_TAG_BOUNCES == photon::tag(0, 0)));
     }
 
     #[test]

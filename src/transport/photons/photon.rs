@@ -14,7 +14,7 @@ pub struct Photon {
     pub wi: Vec3,
     /// Cosine between `wi` and the surface's normal; positive.
     pub cos: f32,
-    /// Sheet, side and number of scattering events so far, in one sortable number.
+    /// Side of a sheet and number of scattering events so far, in one sortable number.
     pub tag: u32,
 }
 
@@ -28,7 +28,7 @@ impl Photon {
             wi: vertex.wo.as_vec3(),
             // Rounding must not make it 0: density estimates divide by it.
             cos: (vertex.wo.dot(vertex.n_side) as f32).max(f32::MIN_POSITIVE),
-            tag: tag(vertex.sheet, vertex.point.front, bounces),
+            tag: tag(vertex.side, bounces),
         }
     }
 }
@@ -36,8 +36,8 @@ impl Photon {
 /// Greatest number of scattering events that a tag holds.
 pub(in crate::transport) const MAX_TAG_BOUNCES: u32 = 255;
 
-/// A number that orders photons by sheet, then side, then scattering events since the light.
+/// A number that orders photons by the side of a sheet that they arrived at ([`Vertex::side`]), then by scattering events since the light.
 #[inline]
-pub(in crate::transport) fn tag(sheet: u32, front: bool, bounces: u32) -> u32 {
-    (sheet << 1 | u32::from(front)) << 8 | bounces.min(MAX_TAG_BOUNCES)
+pub(in crate::transport) fn tag(side: u32, bounces: u32) -> u32 {
+    side << 8 | bounces.min(MAX_TAG_BOUNCES)
 }

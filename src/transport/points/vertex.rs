@@ -10,8 +10,8 @@ use glam::DVec3;
 pub(in crate::transport) struct Vertex {
     /// Where the path met the surface.
     pub(in crate::transport) point: SurfacePoint,
-    /// The smooth surface that the point lies on, see [`crate::world::Surface`].
-    pub(in crate::transport) sheet: u32,
+    /// The side of a sheet that the path came to: the `front_side` of its [`crate::world::Surface`], or the other side.
+    pub(in crate::transport) side: u32,
     /// Index of the material in the world.
     pub(in crate::transport) material: u32,
     /// Scattering function at the point, its textures looked up.
@@ -25,20 +25,22 @@ pub(in crate::transport) struct Vertex {
 }
 
 impl Vertex {
-    /// The vertex of a path whose ray met an object, given by its sheet and the material's index. Camera paths, photons and caustic
+    /// The vertex of a path whose ray met an object, given by the side of a sheet to which its normal points, and
+    /// by the material's index. Camera paths, photons and caustic
     /// photons make their vertices here.
     #[inline(always)]
     pub(in crate::transport) fn at_hit(
         world: &World,
         ray: &Ray,
         hit: Hit,
-        [sheet, material]: [u32; 2],
+        [front_side, material]: [u32; 2],
         counters: &mut Counters,
     ) -> Self {
         let point = world.surface_point(ray, hit);
         let (scattering, n_shade) = world.scattering(&point, material);
         counters.texture_lookups += u64::from(world.materials[material as usize].lookups());
-        Self { point, sheet, material, scattering, n_side: point.n_side(), n_shade, wo: -ray.direction }
+        let side = front_side ^ u32::from(!point.front);
+        Self { point, side, material, scattering, n_side: point.n_side(), n_shade, wo: -ray.direction }
     }
 
     /// The material, whose textures gave the scattering function.

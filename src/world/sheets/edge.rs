@@ -44,6 +44,11 @@ impl Edge {
         })
     }
 
+    /// Whether it runs along the boundary of the patch as the patch's normal `dS/du x dS/dv` turns: the patch lies on its left.
+    pub(super) fn is_counterclockwise(&self) -> bool {
+        [false, true, true, false][self.side]
+    }
+
     /// Whether it is a point, as at the pole of a ball.
     pub(super) fn is_point(&self) -> bool {
         self.length <= POINT * self.width

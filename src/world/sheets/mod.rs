@@ -17,4 +17,4 @@ mod union_find;
 mod weld;
 
 pub use shared_edges::SharedEdges;
-pub(super) use sheet::welded_sheets;
+pub(super) use sheet::{Place, welded_sheets};

@@ -19,12 +19,15 @@ pub(super) struct Seam {
     pub(super) edges: [usize; 2],
     /// Whether they run in opposite directions.
     pub(super) reversed: bool,
+    /// Whether the normals `dS/du x dS/dv` of the two patches point to opposite sides of the surface that they make.
+    pub(super) flips: bool,
     /// Their distance, scene units.
     pub(super) gap: f64,
 }
 
 impl Seam {
-    /// The least cosine of the angle between the normals on its two sides; 1 where the normals vanish, as at a pole.
+    /// The least cosine of the angle between the normals of its two patches on one side of the surface; 1 where the normals vanish, as
+    /// at a pole.
     pub(super) fn least_cosine(&self, edges: &[Edge], nets: &[ControlNet]) -> f64 {
         let [a, b] = self.edges.map(|k| &edges[k]);
         let normal = |edge: &Edge, t: f64| {
@@ -32,7 +35,8 @@ impl Seam {
             let d = nets[edge.patch].derivatives(uv.x, uv.y);
             d.dpdu.normalize_or_zero().cross(d.dpdv.normalize_or_zero()).try_normalize()
         };
-        let cosine = |t: f64| Some(normal(a, t)?.dot(normal(b, if self.reversed { 1.0 - t } else { t })?));
+        let sign = if self.flips { -1.0 } else { 1.0 };
+        let cosine = |t: f64| Some(sign * normal(a, t)?.dot(normal(b, if self.reversed { 1.0 - t } else { t })?));
         TESTED.into_iter().filter_map(cosine).fold(1.0, f64::min)
     }
 }
@@ -103,6 +107,8 @@ fn pair(edges: &[Edge], a: usize, b: usize) -> Option<Seam> {
     (a != b && gap <= most.min(p.tolerance()).min(q.tolerance())).then_some(Seam {
         edges: [a.min(b), a.max(b)],
         reversed,
+        // Neighbours with like normals run along their common edge in opposite directions.
+        flips: (p.is_counterclockwise() == q.is_counterclockwise()) != reversed,
         gap,
     })
 }

@@ -12,10 +12,12 @@ const SMOOTH: f64 = 0.97;
 const CREASED: f64 = 0.5;
 
 /// The place of a patch in the sheets of its object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::world) struct Place {
     /// The first patch of its sheet, by its index in the object.
     pub(in crate::world) sheet: u32,
+    /// Whether its normal points to the other side of the sheet than the first patch's.
+    pub(in crate::world) is_flipped: bool,
     /// The edges over which the sheet goes on.
     pub(in crate::world) shared: SharedEdges,
 }
@@ -26,26 +28,35 @@ pub(in crate::world) fn welded_sheets(nets: &mut [ControlNet]) -> Vec<Place> {
     let seams = seams(&edges);
     weld(nets, &edges, &seams);
     let cosines: Vec<f64> = seams.iter().map(|seam| seam.least_cosine(&edges, nets)).collect();
-    let mut sheets = UnionFind::new(nets.len());
     let is_point = |seam: &Seam| seam.edges.iter().any(|&k| edges[k].is_point());
-    for (seam, cosine) in seams.iter().zip(&cosines) {
-        if *cosine >= SMOOTH && !is_point(seam) {
-            let [a, b] = seam.edges.map(|k| edges[k].patch);
-            sheets.unite(a, b);
-        }
-    }
+    let smooth = seams.iter().zip(&cosines).filter(|(seam, cosine)| **cosine >= SMOOTH && !is_point(seam));
+    let sides = sides(nets.len(), smooth.map(|(seam, _)| (seam.edges.map(|k| edges[k].patch), seam.flips)));
     let mut is_shared = vec![false; edges.len()];
     for (seam, cosine) in seams.iter().zip(&cosines) {
-        let [a, b] = seam.edges.map(|k| sheets.least(edges[k].patch));
-        if a == b && (*cosine >= CREASED || is_point(seam)) {
+        let [(a, a_flips), (b, b_flips)] = seam.edges.map(|k| sides[edges[k].patch]);
+        let goes_on = *cosine >= CREASED && (a_flips != b_flips) == seam.flips;
+        if a == b && (goes_on || is_point(seam)) {
             seam.edges.into_iter().for_each(|k| is_shared[k] = true);
         }
     }
-    let place = |(patch, edges): (usize, &[bool])| Place {
-        sheet: sheets.least(patch) as u32,
+    let place = |(&(sheet, is_flipped), edges): (&(usize, bool), &[bool])| Place {
+        sheet: sheet as u32,
+        is_flipped,
         shared: SharedEdges { u: [edges[0], edges[1]], v: [edges[2], edges[3]] },
     };
-    is_shared.chunks(4).enumerate().map(place).collect()
+    sides.iter().zip(is_shared.chunks(4)).map(place).collect()
+}
+
+/// For each patch, the first patch of its sheet, and whether it is flipped to that one. A smooth seam is given by its two patches and
+/// whether their normals point to opposite sides.
+fn sides(patches: usize, smooth: impl Iterator<Item = ([usize; 2], bool)>) -> Vec<(usize, bool)> {
+    let mut sheets = UnionFind::new(patches);
+    let twisted: Vec<usize> = smooth.filter_map(|([a, b], flips)| (!sheets.relate(a, b, flips)).then_some(a)).collect();
+    let mut has_one_side = vec![false; patches];
+    twisted.into_iter().for_each(|patch| has_one_side[sheets.least(patch)] = true);
+    // A strip of one side, as Moebius's, is no sheet: each of its patches is one.
+    let side = |patch| Some(sheets.find(patch)).filter(|(sheet, _)| !has_one_side[*sheet]).unwrap_or((patch, false));
+    (0..patches).map(side).collect()
 }
 
 #[cfg(test)]
@@ -82,7 +93,7 @@ mod tests {
             for (k, place) in welded_sheets(&mut nets).into_iter().enumerate() {
                 let (x, y) = (k / 3, k % 3);
                 let shared = SharedEdges { u: [x > 0, x < 2], v: [y > 0, y < 2] };
-                assert_eq!(place, Place { sheet: 0, shared }, "patch {k}, {error}");
+                assert_eq!(place, Place { shared, ..Place::default() }, "patch {k}, {error}");
                 if x < 2 {
                     assert_eq!(nets[k].points[3], nets[k + 3].points[0], "patch {k}, {error}");
                 }
@@ -117,6 +128,50 @@ mod tests {
         assert_eq!(places[4].shared, SharedEdges { u: [true; 2], v: [true; 2] });
     }
 
+    #[test]
+    fn patches_turned_over_are_on_the_same_sheet() {
+        let over = |net: &ControlNet| ControlNet { points: from_fn(|i| from_fn(|j| net.points[j][i])) };
+        let is_over = |k: usize| k * k % 5 < 2;
+        for error in [0.0, 1e-9, 1e-4] {
+            let mut nets = grid(3, error);
+            (0..9).filter(|k| is_over(*k)).for_each(|k| nets[k] = over(&nets[k]));
+            let places = welded_sheets(&mut nets);
+            for (k, place) in places.iter().enumerate() {
+                assert_eq!((place.sheet, place.is_flipped), (0, is_over(k) != is_over(0)), "patch {k}, {error}");
+            }
+            assert_eq!(places[4].shared, SharedEdges { u: [true; 2], v: [true; 2] });
+        }
+    }
+
+    /// The two faces of a blade with an angle of 1 degree at its edge have opposite normals, but not as patches of one sheet have them.
+    #[test]
+    fn a_sharp_blade_has_two_sheets() {
+        let face = |z: f64| net(|u, v| DVec3::new(v, 1.0 - u, z * (1.0 - u)));
+        let turned = |n: &ControlNet| ControlNet { points: from_fn(|i| from_fn(|j| n.points[i][3 - j])) };
+        for second in [face(-0.01), turned(&face(-0.01))] {
+            let places = welded_sheets(&mut [face(0.01), second]);
+            assert_eq!(places, [0, 1].map(|sheet| Place { sheet, ..Place::default() }));
+        }
+    }
+
+    #[test]
+    fn a_strip_with_one_side_is_no_sheet() {
+        let strip = |twist: f64, k: usize| {
+            net(move |u, v| {
+                let angle = TAU * (k as f64 + u) / 16.0;
+                let (out, up) = (DVec3::new(angle.cos(), angle.sin(), 0.0), DVec3::Z);
+                out + (v - 0.5) * ((twist * angle).cos() * up + (twist * angle).sin() * out)
+            })
+        };
+        let places = |twist: f64| welded_sheets(&mut (0..16).map(|k| strip(twist, k)).collect::<Vec<_>>());
+        for place in places(1.0) {
+            assert_eq!(place, Place { shared: SharedEdges { u: [true; 2], v: [false; 2] }, ..Place::default() });
+        }
+        for (k, place) in (0..).zip(places(0.5)) {
+            assert_eq!(place, Place { sheet: k, ..Place::default() });
+        }
+    }
+
     /// The surfaces of a box are six sheets, exact or not.
     #[test]
     fn sheets_end_at_creases() {
@@ -128,7 +183,7 @@ mod tests {
         for error in [0.0, 1e-9, 1e-5] {
             let nets: Vec<_> = (0..6).map(|k| side(k, error)).collect();
             for (k, place) in (0..).zip(welded_sheets(&mut nets.clone())) {
-                assert_eq!(place, Place { sheet: k, shared: SharedEdges::default() }, "{error}");
+                assert_eq!(place, Place { sheet: k, ..Place::default() }, "{error}");
             }
         }
     }
@@ -158,7 +213,7 @@ mod tests {
         };
         let mut nets: Vec<_> = (0..16).map(sector).collect();
         for place in welded_sheets(&mut nets) {
-            assert_eq!(place, Place { sheet: 0, shared: SharedEdges { u: [true, false], v: [true; 2] } });
+            assert_eq!(place, Place { shared: SharedEdges { u: [true, false], v: [true; 2] }, ..Place::default() });
         }
         assert!(nets.iter().all(|net| net.points[0] == [nets[0].points[0][0]; 4]));
     }

@@ -115,7 +115,7 @@ impl<'a> CameraTracer<'a> {
         branch.distance += hit.t;
         let ids = match self.world.surfaces[hit.primitive as usize] {
             Surface::Light(light) => return self.emitted(light as usize, &branch, hit),
-            Surface::Object { sheet, material, .. } => [sheet, material],
+            Surface::Object { front_side, material, .. } => [front_side, material],
         };
         if branch.bounces >= self.world.max_bounces {
             return Rgb::ZERO;
@@ -145,7 +145,7 @@ impl<'a> CameraTracer<'a> {
             let facet = Facet {
                 normal: vertex.n_shade.as_vec3(),
                 albedo: vertex.scattering.albedo,
-                tag: photon::tag(vertex.sheet, vertex.point.front, 0),
+                tag: photon::tag(vertex.side, 0),
                 position: (vertex.point.position - self.world.view.origin).as_vec3(),
             };
             pixel.add(facet, vertex.n_shade != vertex.n_side);
@@ -167,7 +167,7 @@ impl<'a> CameraTracer<'a> {
             footprint: footprint as f32,
             primitive: vertex.point.hit.primitive,
             uv: DVec2::new(vertex.point.hit.u, vertex.point.hit.v),
-            tag: photon::tag(vertex.sheet, vertex.point.front, 0),
+            tag: photon::tag(vertex.side, 0),
             photon_bounces: (self.world.max_bounces - branch.bounces - 1).min(photon::MAX_TAG_BOUNCES),
             mean_albedo: vertex.scattering.albedo,
             spread: 0.0,
