@@ -18,6 +18,7 @@ mod parallel_lights;
 mod passes;
 mod plan;
 mod reuse;
+mod sheets;
 mod skipping;
 mod support;
 mod texture;

@@ -3,9 +3,9 @@ use glam::{DVec2, DVec3};
 
 /// Distance of two edges, in widths of the narrower patch, within which they are the same edge for light.
 const JOINED: f64 = 0.02;
-/// Distance of two edges, in widths of the narrower patch, within which their control points become equal. Files with seven digits
-/// and modellers that snap to a grid leave less; a wider gap may be meant.
-const WELDED: f64 = 2e-3;
+/// Distance of two edges, in widths of the narrower patch, within which their control points become equal. Coordinates that are each
+/// off by up to a thousandth of the width leave up to `2 sqrt(3)` thousandths between edges; a wider gap may be meant.
+const WELDED: f64 = 4e-3;
 /// Distance of two edges in units of their length above which they are different edges, however wide the patches are.
 const OF_LENGTH: f64 = 0.1;
 /// An edge shorter than this, in widths of the patch, is a point.

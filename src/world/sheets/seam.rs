@@ -57,8 +57,8 @@ pub(super) fn seams(edges: &[Edge]) -> Vec<Seam> {
     pairs
 }
 
-/// All pairs of edges that are as near as their tolerances. The edges lie in grids of cells twice as large as the tolerances, one for each
-/// power of two; an edge looks for partners with a tolerance as large as its own.
+/// All pairs of edges that are as near as their tolerances. The edges lie in grids of cells twice as large as the tolerances, one grid
+/// for each power of two; an edge looks for partners with a tolerance as large as its own.
 fn pairs(edges: &[Edge]) -> Vec<Seam> {
     let levels: BTreeSet<i32> = edges.iter().filter_map(level).collect();
     let mut cells: HashMap<(i32, [i64; 3]), Vec<usize>> = HashMap::new();
