@@ -224,6 +224,33 @@ fn no_far_ray_slips_between_slivers() {
     }
 }
 
+/// A crumpled patch with one far control point, along an axis or across all axes, and rays at its points from near by.
+#[test]
+fn hits_on_needles_are_exact_across_the_needle() {
+    for far in [DVec3::new(0.0, -1e6, 0.0), DVec3::new(7e5, -3e5, 5e5)] {
+        let crumpled = |k: usize| DVec3::new(2.1, 3.3, 4.7).map(|turn| (turn * (k as f64 + 1.0)).sin());
+        let mut net = ControlNet { points: std::array::from_fn(|i| std::array::from_fn(|j| crumpled(4 * i + j))) };
+        net.points[1][2] += far;
+        let patch = Patch::new(net);
+        let length = net.bounds().diagonal();
+        for k in 1..2000 {
+            let k = f64::from(k);
+            let (u, v) = ((0.618 * k).fract(), (0.414 * k).fract());
+            let direction = DVec3::new((1.1 * k).sin(), (2.3 * k).cos(), (0.7 * k).sin() + 1e-3);
+            let ray = Ray::new(net.eval(u, v) - 4.0 * direction, direction);
+            let hit = patch.intersect(&ray).unwrap_or_else(|| panic!("{far}: {u} {v} is missed"));
+            // Coordinates along the needle are rounded to 1e-16 of its length; 1e-9 of it would be a thousandth of its width.
+            let off = net.eval(hit.u, hit.v).distance(ray.at(hit.t));
+            assert!(off < 1e-11 * length, "{far}: S({}, {}) is {off} off the ray", hit.u, hit.v);
+            assert!(hit.t < 4.0 + 1e-9 * length, "{far}: {u} {v} is hit at {}", hit.t);
+            let at = net.derivatives(hit.u, hit.v);
+            let normal = at.dpdu.cross(at.dpdv).normalize();
+            // The cross product of derivatives of a millionth of their width apart keeps 1e-10 of its digits.
+            assert!(patch.normal(hit.u, hit.v).distance(normal) < 1e-6, "{far}: {u} {v} {normal}");
+        }
+    }
+}
+
 #[test]
 fn the_command_line_gives_the_same_answers() {
     let dir = tempfile::tempdir().unwrap();

@@ -62,8 +62,7 @@ impl From<Hit> for PatchHit {
 impl Patch {
     /// The patch with this control net. No ray hits a patch with a coordinate that is not finite.
     pub fn new(net: ControlNet) -> Self {
-        let bounds = if net.is_finite() { net.bounds() } else { Aabb::EMPTY };
-        let unit_map = UnitMap::new(bounds.center(), bounds.diagonal());
+        let unit_map = UnitMap::new(&net);
         let unit_net = net.map(|p| unit_map.point(p));
         Self { net, is_mirrored: false, unit_map, unit_net, prepared: OnceLock::new() }
     }
@@ -143,7 +142,7 @@ impl Patch {
     /// The geometric unit normal, along `dS/du x dS/dv` (against it for a mirrored patch); the limit of the normal on collapsed edges,
     /// equal rows and cusps. Never NaN.
     pub fn normal(&self, u: f64, v: f64) -> DVec3 {
-        let normal = unit_normal(&self.unit_net, u, v);
+        let normal = self.unit_map.normal_to_scene(unit_normal(&self.unit_net, u, v));
         if self.is_mirrored { -normal } else { normal }
     }
 
