@@ -149,13 +149,13 @@ impl FilmSums {
         self.iterations
     }
 
-    /// The weighted mean over the iterations; black before the first.
+    /// The positive part of the weighted mean over the iterations; black before the first.
     pub fn image(&self) -> LinearImage {
         if self.all.is_empty() {
             return LinearImage::black(self.width, self.height);
         }
-        let pixels = self.all.iter().map(|sums| sums.radiance(self.weight).as_vec3()).collect();
-        LinearImage { width: self.width, height: self.height, pixels }
+        let pixels = self.all.iter().map(|sums| sums.radiance(self.weight).as_vec3());
+        LinearImage::positive_part(self.width, self.height, pixels)
     }
 
     /// Sum of the weights of the iterations: their total size, full iterations.
@@ -163,7 +163,7 @@ impl FilmSums {
         self.weight
     }
 
-    /// Mean radiance over pixels and channels; 0 before the first iteration.
+    /// Mean radiance over pixels and channels, of the sums, which may be negative in some pixels; 0 before the first iteration.
     pub fn mean(&self) -> f64 {
         let total: f64 = self.all.iter().map(|all| all.radiance(self.weight).element_sum()).sum();
         total / (3.0 * self.all.len().max(1) as f64)
@@ -171,7 +171,8 @@ impl FilmSums {
 
     /// Estimated RMSE of the image over its mean: from its noise, which the difference between the first and the later iterations tells,
     /// and a mean square over pixels and channels of the errors that noise does not show: bias, and light that is still unseen. `None`
-    /// before [`Self::ESTIMATED_FROM`] iterations and for a black picture.
+    /// before [`Self::ESTIMATED_FROM`] iterations and for a black picture. The noise is that of the sums; the error of the picture, their
+    /// positive part, is at most the same.
     pub fn error_estimate(&self, squared_hidden: f64) -> Option<f64> {
         let halves = self.halves.as_ref()?;
         let [least, most] = TELLING_WEIGHTS;

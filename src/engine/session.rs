@@ -189,12 +189,12 @@ impl Session {
         let (width, height) = (plan.camera.width, plan.camera.height);
         let meter = PassMeter::default();
         let input = PassInput { world: &self.world, plan: &plan, seed: self.seed, iteration: 1, cancel };
-        let pixels = iterate(&input, &meter, |Contribution { photons, samples, .. }| {
-            photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean()).collect()
+        let image = iterate(&input, &meter, |Contribution { photons, samples, .. }| {
+            let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());
+            LinearImage::positive_part(width, height, pixels)
         })?;
         let Work { counters, seconds } = meter.work();
         let stats = stats(&counters, seconds, start.elapsed().as_secs_f64());
-        let image = LinearImage { width, height, pixels };
         Some(Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) })
     }
 

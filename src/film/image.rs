@@ -12,6 +12,12 @@ pub struct LinearImage {
 }
 
 impl LinearImage {
+    /// The image of these pixels, row by row from the top. Density estimates may be negative, so that their mean over iterations is not
+    /// biased; radiance is not: a picture shows the positive part of the mean, which is nowhere farther from the truth.
+    pub fn positive_part(width: u32, height: u32, pixels: impl IntoIterator<Item = Rgb>) -> Self {
+        Self { width, height, pixels: pixels.into_iter().map(|pixel| pixel.max(Rgb::ZERO)).collect() }
+    }
+
     /// A black image.
     pub fn black(width: u32, height: u32) -> Self {
         Self { width, height, pixels: vec![Rgb::ZERO; width as usize * height as usize] }

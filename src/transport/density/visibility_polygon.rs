@@ -164,8 +164,8 @@ mod tests {
         // The same as a floor that ends there, but for the corners between two directions.
         let ends = Clipped::new(DVec2::new(-1.0, -1.0), DVec2::new(1.2, 0.0), DVec2::new(0.0, 2.0), [false; 4], 0.5);
         let ((_, found), (_, expected)) = (
-            view.moments(0.5).slope_and_integral(false),
-            ends.expect("the disc is clipped").moments().slope_and_integral(false),
+            view.moments(0.5).slope_and_integral(false, 0.5),
+            ends.expect("the disc is clipped").moments().slope_and_integral(false, 0.5),
         );
         assert!((found / expected - 1.0).abs() < 0.03, "{found} against {expected}");
     }
