@@ -37,7 +37,7 @@ pub struct GlobalPhotons {
     pub photons: Vec<Photon>,
     /// Photons that mirrors or glass sent on after a diffuse or glossy surface: indirect caustics.
     pub indirect_caustics: Vec<Photon>,
-    /// Photons at Phong lobes, their flux times the MIS weight of photons: see [`GlossyMis`].
+    /// Photons at Phong lobes, their flux times the MIS weight of photons: see [`GlossyMis`](crate::transport::GlossyMis).
     pub glossy: Vec<Photon>,
     /// Work done.
     pub counters: Counters,
