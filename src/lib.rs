@@ -17,7 +17,7 @@
 //!                             (a new generation: a pass       |        ▼
 //!                              in flight gives up)            |   world::prepare(scene, previous) ─► World
 //!                                                             |        ▼
-//!                                                             |   Plan: components to render, components to skip, reasons
+//!                                                             |   Plan: items to render, items to skip, reasons
 //!                                                             |        ▼
 //!                                                             |   a draft, never cancelled, then finer drafts, then 1, 2, ...
 //!                                                             |   ┌─ iteration i ───────────────────────────────┐

@@ -24,7 +24,7 @@ pub(super) enum Command {
     Render(RenderArguments),
     /// Measure the error against a reference picture over time
     Bench(BenchArguments),
-    /// Validate a scene; print its plan: rendered and skipped components, with reasons
+    /// Validate a scene; print its plan: rendered and skipped work, with reasons
     Check(CheckArguments),
     /// Print the nearest hit of every ray on Bezier patches: `1,t,u,v` or `0,,,`
     Intersect(IntersectArguments),

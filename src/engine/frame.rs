@@ -23,7 +23,7 @@ pub struct Frame {
     pub plan: Arc<PlanSummary>,
 }
 
-/// The decisions of a plan: which components are rendered, which are skipped, and why; warnings about the scene.
+/// The decisions of a plan: which items are rendered, which are skipped, and why; warnings about the scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PlanSummary {
     /// Every decision.
@@ -51,7 +51,7 @@ pub struct Stats {
     pub radius: f64,
     /// Estimated RMSE over the mean of the picture; `None` before there is an estimate.
     pub error_estimate: Option<f64>,
-    /// Light of a component that too few photons have sampled, where the error estimate mostly consists of it.
+    /// Light of an item that too few photons have sampled, where the error estimate mostly consists of it.
     pub missing_light: Option<MissingLight>,
     /// Wall-clock time of each pass.
     pub passes: PassSeconds,
@@ -59,10 +59,10 @@ pub struct Stats {
     pub counters: Counters,
 }
 
-/// Light that may be missing, because too few photons have sampled a component. `Display` says so in words.
+/// Light that may be missing, because too few photons have sampled an item. `Display` says so in words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MissingLight {
-    /// The component.
+    /// Caustics or interreflection.
     pub item: PlanItem,
     /// The most light that may be missing, over the mean of the picture; `None` while the picture is black.
     pub share: Option<f64>,

@@ -24,7 +24,7 @@
 //! | `lights/` | emission and sampling of lights |
 //! | `photons/` | photons and their maps |
 //! | `density/` | density estimation, and the measurements that improve it |
-//! | `plan/` | which components a scene needs, and how they are rendered |
+//! | `plan/` | which work a scene needs, and how it is rendered |
 //! | `passes/` | the passes of an iteration |
 
 mod counters;

@@ -12,7 +12,7 @@
 //! | `textures` | the properties of a texture |
 //! | `properties` | the properties of the selected item |
 //! | `outline` | the list of all items in the scene |
-//! | `plan` | the rendered and the skipped components, with reasons |
+//! | `plan` | the rendered and the skipped items of the plan, with reasons |
 //! | `error_plot` | the plot of the error estimate over time |
 //! | `progress` | display settings, counts, error, time of each pass |
 

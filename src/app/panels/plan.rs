@@ -1,4 +1,4 @@
-//! The rendered and the skipped components with reasons, and warnings about the scene.
+//! The rendered and the skipped items of the plan with reasons, and warnings about the scene.
 
 use crate::app::theme;
 use crate::engine::PlanSummary;

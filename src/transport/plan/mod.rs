@@ -1,10 +1,11 @@
-//! The plan of a scene: the components that it needs and how they are rendered, decided before rendering, with the reasons.
+//! The plan of a scene: the items of work that it needs and how they are rendered, decided before rendering, with the reasons.
 //!
 //! A plan is made *new* from the world. A *draft* of it serves the first picture after an edit. After iterations 4, 8, 16, ... it is
 //! *refined* by their measurements. A plan for *only* one component does no work for the other components.
 //!
 //! | file | holds |
 //! |---|---|
+//! | `component` | [`Component`]: direct light, caustics or interreflection |
 //! | `notes` | the decisions and their reasons, as text |
 //! | `paths` | how many paths leave each light |
 //! | `light_importance` | how much of a light's paths matters for the camera |
@@ -19,6 +20,7 @@
 //! | `new`, `draft`, `refined`, `only` | the four kinds of plans |
 
 mod caustics;
+mod component;
 mod draft;
 mod interleaved_grid;
 mod interreflection;
@@ -34,9 +36,9 @@ mod render_plan;
 mod samples;
 mod unseen_light;
 
+pub use component::Component;
 pub(in crate::transport) use interleaved_grid::InterleavedGrid;
 pub use notes::{PlanItem, PlanNote};
-pub use only::Component;
 pub use radii::Radii;
 pub(in crate::transport) use radius::IterationRadii;
 pub use render_plan::{CausticPlan, Plan};

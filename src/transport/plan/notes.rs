@@ -5,7 +5,7 @@ use crate::transport::lights::light_sampler::MOST_SAMPLED;
 use crate::world::World;
 use std::fmt;
 
-/// A component of light or of work that a scene may need.
+/// An item of work that a scene may need: a component of light or a piece of one, texture lookups, the background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanItem {
     /// Direct light.
@@ -47,9 +47,9 @@ impl fmt::Display for PlanItem {
 /// One decision of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanNote {
-    /// The component that the decision is about.
+    /// The item that the decision is about.
     pub item: PlanItem,
-    /// Whether the component is rendered; otherwise it is skipped.
+    /// Whether the item is rendered; otherwise it is skipped.
     pub rendered: bool,
     /// The reason, in English.
     pub reason: String,

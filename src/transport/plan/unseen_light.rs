@@ -1,4 +1,4 @@
-//! A bound of the light that no photon path has brought yet: what was never sampled shows no noise, but may be missing.
+//! A bound of the light that no photon path has brought yet: light that was never sampled shows no noise, but may be missing.
 //!
 //! If none of `n` independent paths brought light to the picture, then with 95 % confidence less than `3 / n` of all paths would (the rule
 //! of three, \[HanleyLippman83\]). So a component may lack the light of three of its brightest paths. Where thousands of paths arrive
@@ -19,7 +19,7 @@ const RAYS_ALONG_SIDE: u32 = 16;
 /// Light of a component that may be missing in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnseenLight {
-    /// The component that may lack light.
+    /// Caustics or interreflection.
     pub item: PlanItem,
     /// Mean over the film of the radiance that may be missing, W per steradian and square scene unit.
     pub radiance: f64,
@@ -41,7 +41,7 @@ impl Plan {
         Self { radiance_of_path: RadianceOfPath { caustics, interreflection }, ..self }
     }
 
-    /// The greatest light of a planned component that may be missing after iterations of this total size (full iterations, above 0); `None`
+    /// The greatest light of a planned item that may be missing after iterations of this total size (full iterations, above 0); `None`
     /// for a plan without photons.
     pub fn unseen_light(&self, size: f64) -> Option<UnseenLight> {
         let RadianceOfPath { caustics, interreflection } = self.radiance_of_path;
