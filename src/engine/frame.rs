@@ -65,14 +65,16 @@ pub struct MissingLight {
     /// Caustics or interreflection.
     pub item: PlanItem,
     /// The most light that may be missing, over the mean of the picture; `None` while the picture is black.
-    pub share: Option<f64>,
+    pub fraction: Option<f64>,
 }
 
 impl fmt::Display for MissingLight {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "too few photons for {} so far", self.item)?;
-        match self.share {
-            Some(share) if share < 1.0 => write!(f, ": up to {:.2} % of the light may be missing", 100.0 * share),
+        match self.fraction {
+            Some(fraction) if fraction < 1.0 => {
+                write!(f, ": up to {:.2} % of the light may be missing", 100.0 * fraction)
+            }
             Some(_) => write!(f, ": more light than the picture shows may be missing"),
             None => write!(f, ": the picture is still black"),
         }

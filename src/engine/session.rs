@@ -157,12 +157,13 @@ impl Session {
         (self.film.weight() > 0.0).then(|| self.plan.unseen_light(self.film.weight()))?
     }
 
-    /// What the error estimate mostly consists of, where that is light still unseen.
+    /// Unseen light, if it makes up most of the error estimate.
     fn missing_light(&self, error_estimate: Option<f64>) -> Option<MissingLight> {
         let (UnseenLight { item, radiance }, mean) = (self.unseen_light()?, self.film.mean());
-        let share = (mean > 0.0).then(|| radiance / mean);
-        let rules = |share: f64| error_estimate.is_some_and(|estimate| 2.0 * share.powi(2) > estimate.powi(2));
-        share.is_none_or(rules).then_some(MissingLight { item, share })
+        let fraction = (mean > 0.0).then(|| radiance / mean);
+        let dominates =
+            |fraction: f64| error_estimate.is_some_and(|estimate| 2.0 * fraction.powi(2) > estimate.powi(2));
+        fraction.is_none_or(dominates).then_some(MissingLight { item, fraction })
     }
 
     /// Rendering time of all iterations, cancelled ones included, seconds.

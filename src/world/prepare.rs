@@ -13,8 +13,8 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Radius of the part of an unbounded scene that the photons of a sun reach, distances of the camera from what it sees: the ground that the
-/// camera sees, and what lights it, is mostly in it.
+/// Radius of the part of an unbounded scene that the photons of a sun reach, distances of the camera from what it sees: the visible
+/// ground and its illumination lie mostly in it.
 const AROUND_VIEW: f64 = 2.0;
 
 /// Prepares the world of a scene; paths in the scene are relative to `location`. The world shares unchanged parts with

@@ -24,8 +24,8 @@ impl Cone {
         (0.5 * self.radius).sin().powi(2)
     }
 
-    /// The cone as a target without a share of the paths yet.
+    /// The cone as a target without paths yet.
     pub(super) fn target(&self) -> Target {
-        Target { middle: self.middle, radius: self.radius, share: 0.0 }
+        Target { middle: self.middle, radius: self.radius, path_fraction: 0.0 }
     }
 }

@@ -9,13 +9,15 @@ use crate::math::Sampler;
 use crate::world::{Light, World};
 use glam::DVec3;
 
-/// Fraction of a light's chart that the scene fills, below which photons aim at the scene.
+/// Fraction of a light's chart that the scene fills, below which photons aim at the scene. With a larger fraction more lights would trace
+/// probe rays after an edit, for less than sixteen times the photons; with a smaller one some lights would waste more than fifteen of
+/// sixteen paths.
 const FAR: f64 = 1.0 / 16.0;
 /// Half the diagonal of a primitive's box over the distance from the light to the view, from which on photons do not aim at the primitive
 /// as a whole: if it is all around, an even share of the paths brings back 1e-4 of the light that the view has straight from the lamp.
 const WIDE: f64 = 100.0;
 /// Where a primitive is that wide, photons also aim at a ball around the middle of the view: its radius over the distance of the camera.
-/// The ground that the camera sees, and what lights it, is mostly in it.
+/// The visible ground and its illumination lie mostly in it.
 const VIEW: f64 = 2.0;
 
 /// The first rays of a light's photon paths.
@@ -55,7 +57,7 @@ impl PhotonEmission {
         }
     }
 
-    /// Fraction of the light's chart that the paths share.
+    /// Fraction of the light's chart that the paths cover.
     pub(in crate::transport) fn aimed_fraction(&self) -> f64 {
         match self {
             Self::Everywhere => 1.0,

@@ -30,11 +30,14 @@ const DEFENSIVE_FRACTION: f64 = 0.03;
 const SMALL_PRIMITIVE: f64 = 0.1;
 /// Radius of an object in the chart (radians where the chart is of directions) below which the cells around it are refined: it fills less than a cell.
 const SMALL_OBJECT: f64 = 0.02;
-/// Least share of the paths for a small object beside larger ones: in proportion to its solid angle it might get none.
-const LEAST_SHARE: f64 = 1.0 / 64.0;
-/// Most that the least shares of all small objects take.
-const LEAST_SHARES: f64 = 0.25;
-/// Rays to a small object that tell whether the light meets it.
+/// Least fraction of the paths for a small object beside larger ones: in proportion to its solid angle it might get none. A larger fraction
+/// would take paths from the caustics of larger objects; a smaller one would leave the caustic of a small object noisy.
+const LEAST_FRACTION: f64 = 1.0 / 64.0;
+/// Most that the least fractions of all small objects take together. More would leave few paths for larger objects beside hundreds of small
+/// ones; less would make their caustics noisy.
+const LEAST_FRACTIONS: f64 = 0.25;
+/// Rays to a small object that tell whether the light meets it. Fewer may all miss an object of which others hide all but a tenth, whose
+/// light is then left to the defensive paths; more would take time for each object and light after an edit.
 const RAYS_TO_SMALL_OBJECT: u64 = 32;
 
 /// A density of the first rays of paths over the chart of a light, constant in each cell.
@@ -100,12 +103,12 @@ impl ProjectionMap {
         let total = (SIDE * SIDE) as f64;
         let marked_area = count as f64 / total;
         let (targets, areas) = targets(cones, marked_area, chart.place_from_square());
-        let small_share: f64 = targets.list.iter().map(|target| target.share).sum();
-        let rest = 1.0 - DEFENSIVE_FRACTION - small_share;
+        let of_targets: f64 = targets.list.iter().map(|target| target.path_fraction).sum();
+        let rest = 1.0 - DEFENSIVE_FRACTION - of_targets;
         let probability = |cell: usize| {
             let uniform = 1.0 / total;
             match (is_marked[cell], count) {
-                (_, 0) => (1.0 - small_share) * uniform,
+                (_, 0) => (1.0 - of_targets) * uniform,
                 (true, _) => rest / count as f64 + DEFENSIVE_FRACTION * uniform,
                 (false, _) => DEFENSIVE_FRACTION * uniform,
             }
@@ -193,7 +196,7 @@ impl ProjectionMap {
         (cos > 0.0).then_some(Emission { origin: position, direction, flux })
     }
 
-    /// Fraction of the chart that the aimed paths share: all of it, if the light meets none of the surfaces.
+    /// Fraction of the chart that the aimed paths cover: all of it, if the light meets none of the surfaces.
     pub(in crate::transport) fn aimed_fraction(&self) -> f64 {
         if self.covered > 0.0 { self.covered } else { 1.0 }
     }
@@ -316,18 +319,18 @@ fn cells_of_small_primitives(world: &World, chart: &Chart, is_aim: &impl Aim) ->
     cells
 }
 
-/// The targets of the cones beside cells that cover this area of the unit square, and the areas that the targets cover. Each gets a share
-/// of the paths in proportion to its area, but not less than [`LEAST_SHARE`].
+/// The targets of the cones beside cells that cover this area of the unit square, and the areas that the targets cover. Each gets a
+/// fraction of the paths in proportion to its area, but not less than [`LEAST_FRACTION`].
 fn targets(cones: &[Cone], marked_area: f64, place_from_square: PlaceFromSquare) -> (Targets, Vec<f64>) {
     let list: Vec<Target> = cones.iter().map(Cone::target).collect();
     let mut targets = Targets { list, place_from_square };
     let areas = targets.covered_areas();
-    let least = LEAST_SHARE.min(LEAST_SHARES / cones.len() as f64);
+    let least = LEAST_FRACTION.min(LEAST_FRACTIONS / cones.len() as f64);
     let total = marked_area + areas.iter().sum::<f64>();
     let weights: Vec<f64> = areas.iter().map(|area| (area / total).max(least)).collect();
     let sum = marked_area / total + weights.iter().sum::<f64>();
     for (target, weight) in targets.list.iter_mut().zip(weights) {
-        target.share = (1.0 - DEFENSIVE_FRACTION) * weight / sum;
+        target.path_fraction = (1.0 - DEFENSIVE_FRACTION) * weight / sum;
     }
     (targets, areas)
 }

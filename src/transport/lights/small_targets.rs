@@ -18,8 +18,8 @@ pub(super) struct Target {
     pub(super) middle: Place,
     /// Half the angle of the cone, radians.
     pub(super) radius: f64,
-    /// Share of the paths, 0 to 1.
-    pub(super) share: f64,
+    /// Fraction of the paths, 0 to 1.
+    pub(super) path_fraction: f64,
 }
 
 /// A point of a chart: of the unit sphere, or of a square in the plane z = 0 with the same area as the sphere.
@@ -140,7 +140,7 @@ impl CellTree {
             return None;
         }
         let mut tree = Self { nodes: Vec::new() };
-        let density = |met: &[usize]| even + met.iter().map(|&t| targets.list[t].share / areas[t]).sum::<f64>();
+        let density = |met: &[usize]| even + met.iter().map(|&t| targets.list[t].path_fraction / areas[t]).sum::<f64>();
         let (_, mass) = tree.add(cell, targets, &all, &density);
         Some((tree, mass)).filter(|(tree, _)| !tree.nodes.is_empty())
     }
@@ -204,7 +204,7 @@ impl CellTree {
     }
 }
 
-/// Whether `u` falls to the second of two masses; rescales it to 0 to 1 within the one that it falls to.
+/// Whether `u` falls to the second of two masses; rescales it to 0 to 1 within the chosen mass.
 fn split(u: &mut f64, first: f64, second: f64) -> bool {
     let threshold = first / (first + second);
     let is_second = *u >= threshold;
@@ -243,12 +243,12 @@ mod tests {
             octahedral::direction_from_square(DVec2::new(cell.x as f64 + x, cell.y as f64 + y) * cell.side())
         };
         let targets = [(0.3, 0.4, 1e-3, 0.4), (0.8, 0.7, 1e-6, 0.2)];
-        let targets = targets.map(|(x, y, radius, share)| Target { middle: at(x, y), radius, share });
+        let targets = targets.map(|(x, y, radius, path_fraction)| Target { middle: at(x, y), radius, path_fraction });
         let targets = Targets { list: targets.to_vec(), place_from_square: DIRECTIONS };
         let areas = targets.covered_areas();
         let (tree, mass) = CellTree::new(cell, &targets, &areas, 1.0).expect("the cell holds both");
         let area = cell.side() * cell.side();
-        assert!((mass - area - 0.6).abs() < 1e-12, "the even density and both shares: {mass}");
+        assert!((mass - area - 0.6).abs() < 1e-12, "the even density and both fractions: {mass}");
         let n = 128;
         let mut in_cone = [0; 2];
         for k in 0..n * n {
@@ -262,7 +262,7 @@ mod tests {
         }
         for (k, target) in targets.list.iter().enumerate() {
             let cone = PI * target.radius * target.radius / (4.0 * PI) / areas[k];
-            let expected = cone * target.share / mass * f64::from(n * n);
+            let expected = cone * target.path_fraction / mass * f64::from(n * n);
             assert!(cone > 0.4, "the leaves fit the cone: {cone}");
             assert!((f64::from(in_cone[k]) / expected - 1.0).abs() < 0.05, "{} instead of {expected}", in_cone[k]);
         }
