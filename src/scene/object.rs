@@ -10,12 +10,12 @@ pub struct Object {
     pub material: String,
     /// The shape.
     pub shape: Shape,
-    /// The piece of glass that it bounds, together with all objects of the same body; `None` for the one of all objects with
-    /// the same glass material and no body.
+    /// The piece of glass that it bounds, together with all objects of the same body; `None` for the body that all objects of the
+    /// same glass material without a body bound.
     pub body: Option<String>,
 }
 
-/// What makes objects of glass bound one body.
+/// Key of a body: objects with equal keys bound one body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyKey<'a> {
     /// The body that the objects name.

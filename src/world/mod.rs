@@ -9,7 +9,7 @@
 //! | `material` | [`Material`] with its textures; [`Scattering`] at a point |
 //! | `sheets/` | the smooth surfaces that the patches of an object make |
 //! | `surface` | [`Surface`], the object or light of a primitive; [`SurfacePoint`], a hit as light transport reads it |
-//! | `bodies/` | bodies of glass: which of them contain a point, and which of these counts |
+//! | `bodies/` | bodies of glass: which of them contain a point, and which body's medium applies |
 //! | `view` | [`View`]: where the surfaces are that the camera sees |
 //! | `prepared` | [`World`] |
 //! | `probes` | rays that find the view of a world |
@@ -32,7 +32,7 @@ mod texture;
 mod view;
 mod warnings;
 
-pub use bodies::{Body, Contacts, Media, Origin};
+pub use bodies::{Body, Contacts, LightMedia, Media};
 pub use camera::{Camera, Projected};
 pub use error::PrepareError;
 pub use light::Light;

@@ -1,4 +1,4 @@
-use super::bodies::{self, Surroundings};
+use super::bodies::{self, LightMedia, Surroundings};
 use super::material::{Model, Relief, Source};
 use super::probes;
 use super::sheets::{Place, welded_sheets};
@@ -35,11 +35,11 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
     let contacts = Contacts::new(aggregate.primitives(), &surfaces, &magnitudes);
     let around = Surroundings { aggregate: &aggregate, surfaces: &surfaces, bodies: &bodies };
     let camera_media = around.media(scene.camera.position);
-    let light_origins = lights.iter().map(|light| around.origin(light.test_points())).collect();
+    let light_media = lights.iter().map(|light| LightMedia::at(light.test_points(), &around)).collect();
     let mut world = World {
         contacts,
         camera_media,
-        light_origins,
+        light_media,
         bodies,
         aggregate,
         surfaces,

@@ -1,6 +1,8 @@
 use super::bodies::{Surroundings, touching};
 use super::texture::TextureKey;
-use super::{Body, Camera, Contacts, Image, Light, Material, Media, Origin, Scattering, Surface, SurfacePoint, View};
+use super::{
+    Body, Camera, Contacts, Image, Light, LightMedia, Material, Media, Scattering, Surface, SurfacePoint, View,
+};
 use crate::geometry::{Aggregate, Hit};
 use crate::math::float::rounding;
 use crate::math::{Ray, Rgb};
@@ -8,7 +10,8 @@ use arrayvec::ArrayVec;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Surfaces of glass that may coincide in one point.
+/// Surfaces of glass that may coincide in one point; further ones are not crossed there. Bodies side by side need two, overlapping ones a few;
+/// a greater number would only lengthen the list that each event at glass fills.
 const MAX_COINCIDENT: usize = 8;
 
 /// A scene as the renderer reads it.
@@ -23,8 +26,8 @@ pub struct World {
     /// The lights with power above zero, in the order of the scene.
     pub lights: Vec<Light>,
     /// For each light, the media in which its paths begin.
-    pub light_origins: Vec<Origin>,
-    /// The bodies of glass, in ascending order of their rank: of several around a point, the last one counts.
+    pub light_media: Vec<LightMedia>,
+    /// The bodies of glass, in ascending order of their rank: of several around a point, the last one's medium applies.
     pub bodies: Vec<Body>,
     /// Surfaces that coincide with surfaces of glass.
     pub contacts: Contacts,
@@ -50,7 +53,8 @@ impl World {
         self.textures.iter().map(|(_, image)| image)
     }
 
-    /// The nearest hit of a ray; `None` for a miss. Where glass touches an opaque surface or a light, it is on that one.
+    /// The nearest hit of a ray; `None` for a miss. Where glass touches an opaque surface or a light, the
+    /// hit lies on the opaque surface or the light.
     #[inline]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         self.aggregate.closest_hit(ray).map(|hit| self.on_opaque(ray, hit))
@@ -116,7 +120,7 @@ impl World {
         media.across(&crossings)
     }
 
-    /// The body that counts in these media; `None` in air.
+    /// The body whose medium applies in these media; `None` in air.
     #[inline]
     pub fn body(&self, media: &Media) -> Option<&Body> {
         media.body().map(|rank| &self.bodies[rank as usize])
@@ -130,13 +134,13 @@ impl World {
 
     /// The media in which a path begins at a point of a light, which for an area light is to lie just off its surface.
     pub fn media_at_light(&self, light: usize, point: DVec3) -> Media {
-        match &self.light_origins[light] {
-            Origin::Uniform(media) => media.clone(),
-            Origin::Mixed => self.media_around(point),
+        match &self.light_media[light] {
+            LightMedia::Uniform(media) => media.clone(),
+            LightMedia::Mixed => self.media_around(point),
         }
     }
 
-    /// The bodies around a point: those whose surfaces, seen from the point, show their inside.
+    /// The bodies whose inside faces the point.
     pub fn media_around(&self, point: DVec3) -> Media {
         let (aggregate, surfaces, bodies) = (&self.aggregate, &self.surfaces, &self.bodies);
         Surroundings { aggregate, surfaces, bodies }.media(point)

@@ -7,17 +7,21 @@ use crate::math::{Ray, Rgb, warp};
 use crate::scene::{Scene, Shape};
 use glam::DVec3;
 
-/// Rays into a body that tell whether walls close it.
+/// Rays into a body that tell whether walls close it. Fewer would leave gaps of a few percent to chance; more would take time after each
+/// edit.
 const TEST_RAYS: usize = 256;
 /// Distance of the first hit of such a ray, in diagonals of the body's box: the ray does not hit its own surface again.
 const LEAST_STEP: f64 = 1e-9;
+/// Rays that may find a way out of a body without a warning, 3 %. With fewer, rays through the seams of walls would warn of closed rooms;
+/// with more, larger gaps would pass.
+const MOST_LEAKING: usize = TEST_RAYS / 32;
 
-/// Something in a scene that is likely not meant, although it can be rendered.
+/// A fault of a scene that can be rendered, but is likely not meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     /// The object, the light or the camera, with its name.
     pub subject: String,
-    /// What is wrong with it, and what that does to the picture.
+    /// The fault, and its effect on the picture.
     pub fault: String,
     /// How to mend it.
     pub remedy: String,
@@ -101,7 +105,7 @@ fn leaks(world: &World, body: &Body) -> bool {
             .closest_hit(&ray)
             .is_none_or(|hit| body.primitives.contains(&hit.primitive) && world.surface_point(&ray, hit).front)
     };
-    (0..TEST_RAYS).filter(leaks).count() > TEST_RAYS / 32
+    (0..TEST_RAYS).filter(leaks).count() > MOST_LEAKING
 }
 
 /// Surfaces of one medium that coincide and belong to two bodies.

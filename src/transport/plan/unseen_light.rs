@@ -13,7 +13,8 @@ use std::f64::consts::PI;
 
 /// Number of paths whose light may be missing although none of them was found.
 const RULE_OF_THREE: f64 = 3.0;
-/// Rays along a side of the film that measure the surfaces in view.
+/// Rays along a side of the film that measure the surfaces in view. With fewer, chance would change the bound where objects are near and far;
+/// more would take time after each edit.
 const RAYS_ALONG_SIDE: u32 = 16;
 
 /// Light of a component that may be missing in a picture.

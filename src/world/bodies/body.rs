@@ -4,13 +4,16 @@ use crate::math::{Aabb, Ray, Rgb, warp};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Lines that are drawn through a body to see whether it is closed.
+/// Lines that are drawn through a body to see whether it is closed. Fewer would miss gaps of a few percent of its surface; more would take
+/// time after each edit.
 const TEST_LINES: usize = 128;
-/// Lines that may slip through the seams of a closed body.
+/// Lines that may slip through the seams of a closed body. With none, the seams of a closed body could make it open; with more, larger gaps
+/// would pass as closed.
 const SLIPPED: usize = 1;
 /// Distance below which surfaces coincide, in diagonals of the body's box: above rounding.
 const NEAR: f64 = 1e-6;
-/// Rays that tell on which side of a closed surface a point is.
+/// Rays that tell on which side of a closed surface a point is. An odd number has a majority. With fewer, rays through seams
+/// could decide; more would take time after each edit.
 const VOTES: usize = 9;
 
 /// One piece of glass, or of any other clear medium. Its rank is its index in the world.
@@ -67,7 +70,7 @@ impl Body {
         self.lines_with(primitives, |fronts| fronts.count() % 2 == 1) > SLIPPED
     }
 
-    /// The number of test lines through the body whose crossings (from the front or not) are like this; 0 for a half-space.
+    /// The number of test lines through the body whose crossings (from the front or not) `is_counted` accepts; 0 for a half-space.
     fn lines_with(
         &self,
         primitives: &[Primitive],

@@ -6,7 +6,8 @@ use crate::world::Surface;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
-/// Points along each side of a surface at which its distance to another one is tested.
+/// Points along each side of a surface at which its distance to another one is tested. Fewer would miss faces that share some
+/// hundredths of their area; more would take time for each pair of surfaces whose boxes meet, after each edit.
 const TESTED: usize = 8;
 /// How near surfaces are that may be in contact, relative to their coordinates: no nearer than a ray starts off a surface that it leaves,
 /// else the ray would miss the second surface.
@@ -14,7 +15,7 @@ const TOUCHING: f64 = 2.0 * SELF_HIT_OFFSET;
 
 /// For surfaces of glass, the surfaces that coincide with them over an area, up to rounding.
 ///
-/// A ray cannot meet them one after the other: they are one interface, between what is before and what is behind all of them.
+/// A ray cannot meet them one after the other: they are one interface between the medium before and the medium behind all of them.
 #[derive(Clone, Debug, Default)]
 pub struct Contacts {
     of: HashMap<u32, Vec<u32>>,

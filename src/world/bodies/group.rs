@@ -3,7 +3,7 @@ use crate::geometry::Primitive;
 use crate::scene::{BodyKey, MaterialModel, Object, Scene};
 use crate::world::Surface;
 
-/// A body with what decides its rank.
+/// A body with its key and priority.
 struct Group<'s> {
     key: BodyKey<'s>,
     body: Body,
@@ -12,8 +12,8 @@ struct Group<'s> {
 
 /// The bodies of a scene in ascending order of their rank; enters each into its surfaces.
 ///
-/// Where several bodies contain a point, the one with the highest priority counts; among equals the one with the smaller bounding
-/// box, then the later one in the file.
+/// Where several bodies contain a point, the medium of the body with the highest priority applies; among equals that of the smaller
+/// bounding box, then that of the later body in the file.
 pub(in crate::world) fn bodies(scene: &Scene, primitives: &[Primitive], surfaces: &mut [Surface]) -> Vec<Body> {
     let mut groups = Vec::new();
     for (index, surface) in (0..).zip(surfaces.iter()) {
@@ -25,7 +25,7 @@ pub(in crate::world) fn bodies(scene: &Scene, primitives: &[Primitive], surfaces
         group.body.is_closed = group.body.is_crossed_evenly(primitives);
     }
     let mut groups = joined(groups, primitives);
-    // Stable: of equal ones the later one in the file stays behind.
+    // Stable: of equal bodies the later one in the file stays behind.
     groups.sort_by(|a, b| {
         let area = |group: &Group<'_>| group.body.bounds.half_area();
         a.priority.cmp(&b.priority).then(area(b).total_cmp(&area(a)))
@@ -55,7 +55,7 @@ fn add<'s>(scene: &'s Scene, object: &'s Object, index: u32, primitive: &Primiti
     groups[at].body.add(index, primitive);
 }
 
-/// The groups, with open bodies of the same medium made one where they close each other: a box of water whose top has a material of
+/// The groups, with open bodies of equal medium and priority made one where they close each other: a box of water whose top has a material of
 /// its own.
 fn joined<'s>(groups: Vec<Group<'s>>, primitives: &[Primitive]) -> Vec<Group<'s>> {
     let mut joined: Vec<Group<'s>> = Vec::new();

@@ -1,6 +1,7 @@
 use arrayvec::ArrayVec;
 
-/// Bodies that may contain one point; of more, those of the lowest rank are forgotten.
+/// Bodies that may contain one point; beyond this number, bodies of the lowest rank are dropped. With fewer, paths in nested bodies would leave
+/// them into air; with more, every event would copy longer lists.
 const MAX_NESTED: usize = 8;
 
 /// The bodies around a point of a path, by their ranks.
@@ -9,12 +10,12 @@ const MAX_NESTED: usize = 8;
 /// be entered several times before it is left, where its surfaces overlap.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Media {
-    /// In ascending order: the last one counts.
+    /// In ascending order: the medium of the last one applies.
     inside: ArrayVec<u32, MAX_NESTED>,
 }
 
 impl Media {
-    /// The rank of the body that counts; `None` in air.
+    /// The rank of the body whose medium applies; `None` in air.
     #[inline]
     pub fn body(&self) -> Option<u32> {
         self.inside.last().copied()
@@ -68,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn the_body_of_the_highest_rank_counts_in_any_order() {
+    fn the_body_of_the_highest_rank_gives_the_medium_in_any_order() {
         assert_eq!(Media::default().body(), None);
         assert_eq!(around(&[2, 5, 1]), around(&[5, 1, 2]));
         assert_eq!(around(&[2, 5, 1]).body(), Some(5));
@@ -95,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn deep_nesting_forgets_the_lowest() {
+    fn deep_nesting_drops_the_lowest() {
         let media = around(&(0..20).collect::<Vec<_>>());
         assert_eq!(media, around(&(12..20).collect::<Vec<_>>()));
     }

@@ -1,4 +1,4 @@
-//! Bodies of glass: which of them contain a point, and which of these counts.
+//! Bodies of glass: which of them contain a point, and which body's medium applies.
 //!
 //! | file | holds |
 //! |---|---|
@@ -6,21 +6,23 @@
 //! | `crossings` | the points in which a line crosses a surface |
 //! | `body` | [`Body`]: one piece of glass |
 //! | `group` | from the objects of a scene to bodies in the order of their rank |
-//! | `origin` | [`Origin`]: the media in which paths begin |
+//! | `surroundings` | the bodies around a point |
+//! | `light_media` | [`LightMedia`]: the media in which the paths of a light begin |
 //! | `contact` | [`Contacts`]: surfaces that coincide |
 
 mod body;
 mod contact;
 mod crossings;
 mod group;
+mod light_media;
 mod media;
-mod origin;
+mod surroundings;
 
 pub use body::Body;
 pub use contact::Contacts;
 pub(super) use contact::touching;
 pub(super) use crossings::{point_of, spread};
 pub(super) use group::bodies;
+pub use light_media::LightMedia;
 pub use media::Media;
-pub use origin::Origin;
-pub(super) use origin::Surroundings;
+pub(super) use surroundings::Surroundings;

@@ -5,9 +5,11 @@ use crate::math::{Ray, warp};
 use crate::world::Surface;
 use glam::DVec3;
 
-/// Directions in which a closed body is seen from a point: one would do, were there no seams.
+/// Directions in which a closed body is seen from a point: several, because a ray may slip through a seam; an odd number has a
+/// middle. More would take time for each path of a light that lies partly in a body.
 const VIEWS_OF_CLOSED: usize = 5;
-/// Directions in which an open body is seen from a point: it may fill a small part of the view.
+/// Directions in which an open body is seen from a point, because the body may fill a small part of the view. Fewer may all miss it; more
+/// would take time for each point.
 const VIEWS_OF_OPEN: usize = 64;
 
 /// The surfaces of a world and the bodies that they bound, as paths see them from where they begin.
@@ -18,30 +20,14 @@ pub(in crate::world) struct Surroundings<'a> {
     pub(in crate::world) bodies: &'a [Body],
 }
 
-/// The media in which the paths of a light begin.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Origin {
-    /// The same everywhere on the light.
-    Uniform(Media),
-    /// Not the same: a part of the light is in a body of which another part is not.
-    Mixed,
-}
-
 impl Surroundings<'_> {
-    /// The bodies around a point: those whose surfaces, seen from the point, show their inside.
+    /// The bodies whose inside faces the point.
     pub(in crate::world) fn media(&self, point: DVec3) -> Media {
         let mut media = Media::default();
         for (rank, body) in (0..).zip(self.bodies) {
             (0..self.depth(body, point)).for_each(|_| media.enter(rank));
         }
         media
-    }
-
-    /// The media in which paths begin that start at these points of one light.
-    pub(in crate::world) fn origin(&self, points: impl IntoIterator<Item = DVec3>) -> Origin {
-        let mut points = points.into_iter();
-        let first = points.next().map_or(Media::default(), |point| self.media(point));
-        if points.all(|point| self.media(point) == first) { Origin::Uniform(first) } else { Origin::Mixed }
     }
 
     /// How often a path from outside enters the body without leaving it on its way to the point.
