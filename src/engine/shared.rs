@@ -52,11 +52,13 @@ impl Shared {
         self.generation.load(Ordering::Acquire) != generation
     }
 
+    /// Makes this the newest frame, and wakes the caller.
     pub(super) fn publish(&self, frame: Frame) {
         *lock(&self.newest) = Some(Arc::new(frame));
         (self.wake_caller)();
     }
 
+    /// The newest frame; `None` if it was taken before, or none was published yet.
     pub(super) fn take_newest(&self) -> Option<Arc<Frame>> {
         lock(&self.newest).take()
     }

@@ -48,12 +48,12 @@ impl<State, Key: Copy + PartialEq> History<State, Key> {
         }
     }
 
-    /// The key of the step that `undo` would revert.
+    /// The key of the step that `undo` would revert; `None` without such a step.
     pub(crate) fn undoable(&self) -> Option<Key> {
         self.before.last().map(|(_, key)| *key)
     }
 
-    /// The key of the step that `redo` would repeat.
+    /// The key of the step that `redo` would repeat; `None` without such a step.
     pub(crate) fn redoable(&self) -> Option<Key> {
         self.after.last().map(|(_, key)| *key)
     }

@@ -87,12 +87,12 @@ impl Document {
         (self.file, self.selection) = self.history.abandon_gesture(present).unwrap_or_else(|present| present);
     }
 
-    /// The name of the edit that undo would revert.
+    /// The name of the edit that undo would revert; `None` without such a step.
     pub(crate) fn undoable(&self) -> Option<&'static str> {
         self.history.undoable().map(|(label, _)| label)
     }
 
-    /// The name of the edit that redo would repeat.
+    /// The name of the edit that redo would repeat; `None` without such a step.
     pub(crate) fn redoable(&self) -> Option<&'static str> {
         self.history.redoable().map(|(label, _)| label)
     }

@@ -81,12 +81,12 @@ impl Chooser {
         left.is_zero()
     }
 
-    /// Dismisses the open dialog and ignores its result. Returns its request.
+    /// Dismisses the open dialog and ignores its result. Returns its request; `None` without an open dialog.
     pub(crate) fn dismiss(&mut self) -> Option<Request> {
         self.open.take().map(|(request, ..)| request)
     }
 
-    /// The result of a dialog that has ended since the last call.
+    /// The request and the result of a dialog that has ended since the last call; `None` while the dialog is open, and without a dialog.
     pub(crate) fn poll(&mut self) -> Option<(Request, Outcome)> {
         let (_, _, receive) = self.open.as_ref()?;
         let outcome = match receive.try_recv() {

@@ -38,6 +38,10 @@ impl Truth {
     }
 
     /// The errors inside the mask, and the errors outside if there is a mask.
+    ///
+    /// # Errors
+    ///
+    /// If the image, a reference or the mask differ in size.
     pub(super) fn errors(&self, image: &LinearImage) -> Result<(Errors, Option<Errors>), ImageError> {
         let second = self.second.as_ref().unwrap_or(&self.reference);
         let errors = |mask| compare_with_both(image, &self.reference, second, mask);

@@ -15,7 +15,7 @@ use std::array::from_fn;
 const STEPS: usize = 2;
 
 simd_dispatch! {
-    /// The nearest hit of each ray.
+    /// The nearest hit of each ray; `None` for a miss.
     pub(crate) fn nearest_hit_of_each(l: impl Lanes, patch: &PreparedPatch, rays: &[UnitRay; LANES]) -> [Option<Hit>; LANES] {
         PacketTraversal::new(l, patch, rays).run(l)
     }

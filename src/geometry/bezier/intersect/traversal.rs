@@ -26,7 +26,7 @@ pub(crate) fn insert(stack: &mut Stack, bottom: usize, entry: (f32, NodeRef)) {
 }
 
 simd_dispatch! {
-    /// The nearest hit of a ray.
+    /// The nearest hit of a ray; `None` for a miss.
     pub(crate) fn nearest_hit(l: impl Lanes, patch: &PreparedPatch, ray: UnitRay) -> Option<Hit> {
         traverse::<_, false>(l, RayQuery::new(patch, ray))
     }
@@ -39,7 +39,7 @@ simd_dispatch! {
     }
 }
 
-/// The nearest hit, or with `ANY` the first one found.
+/// The nearest hit, or with `ANY` the first one found; `None` for a miss.
 #[inline(always)]
 fn traverse<L: Lanes, const ANY: bool>(l: L, mut query: RayQuery) -> Option<Hit> {
     let mut ray = LaneRays::splat(l, &query.ray);
