@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_others_do_not_balance_count_as_much_as_an_edge_would() {
+    fn sets_of_unbalanced_sizes_have_the_noise_of_an_edge() {
         let noise = rates(3.0, 8.0, 4.0).squared_noise(Some(&rates(3.0, 4.0, 4.0)));
         assert_eq!(noise, rates(3.0, 8.0, 4.0).of_all[UNBALANCED]);
     }

@@ -238,15 +238,15 @@ mod tests {
     }
 
     #[test]
-    fn parts_merge_to_the_whole() {
+    fn ranges_merge_to_the_whole() {
         let mut whole = FilmSums::new(SIDE, SIDE);
-        let mut parts = [whole.clone(), whole.clone()];
+        let mut ranges = [whole.clone(), whole.clone()];
         for i in 1..=9 {
             let (weight, photons, samples) = (0.5 + i as f64, noise(i), samples(i, 1.0 + i as f32));
             whole.commit(weight, &photons, &samples);
-            parts[usize::from(i > 4)].commit(weight, &photons, &samples);
+            ranges[usize::from(i > 4)].commit(weight, &photons, &samples);
         }
-        let [mut first, second] = parts;
+        let [mut first, second] = ranges;
         let mut nothing_yet = FilmSums::new(SIDE, SIDE);
         nothing_yet.merge(&second);
         assert_eq!(nothing_yet, second);
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn two_parts_estimate_the_error() {
+    fn two_sets_estimate_the_error() {
         let mut film = FilmSums::new(SIDE, SIDE);
         assert_eq!(film.error_estimate(0.0), None);
         for i in 1..=64 {
@@ -307,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn photons_weigh_as_iterations_do_and_samples_as_they_say() {
+    fn photons_have_the_weight_of_their_iteration_and_samples_their_own() {
         let mut film = FilmSums::new(1, 1);
         let samples = |weight: f32, radiance: f32| pixel(2, Rgb::splat(2.0 * radiance), weight);
         film.commit(0.5, &[Rgb::splat(10.0)], &[samples(4.0, 1.0)]);

@@ -33,7 +33,7 @@ fn size() -> impl Strategy<Value = f64> {
     prop_oneof![1e-9..1e9, Just(0.1), Just(1.0)]
 }
 
-fn part() -> impl Strategy<Value = Rgb> {
+fn fraction() -> impl Strategy<Value = Rgb> {
     [0f32..0.5, 0f32..0.5, 0f32..0.5].prop_map(Rgb::from_array)
 }
 
@@ -50,7 +50,7 @@ fn texture_use() -> impl Strategy<Value = TextureUse> {
 }
 
 fn color() -> impl Strategy<Value = Color> {
-    prop_oneof![part().prop_map(Color::Constant), texture_use().prop_map(Color::Texture)]
+    prop_oneof![fraction().prop_map(Color::Constant), texture_use().prop_map(Color::Texture)]
 }
 
 fn model() -> impl Strategy<Value = MaterialModel> {

@@ -89,9 +89,9 @@ fn reflecting_all_the_light_is_allowed() {
         reflectance: Color::Constant(Rgb::splat(reflectance)),
     };
     for tenths in 0..=10u8 {
-        let part = f32::from(tenths) / 10.0;
-        scene.materials[0].model = polished(part, 1.0 - part);
-        assert_eq!(validate(&scene), [], "{part}");
+        let fraction = f32::from(tenths) / 10.0;
+        scene.materials[0].model = polished(fraction, 1.0 - fraction);
+        assert_eq!(validate(&scene), [], "{fraction}");
     }
     scene.materials[0].model = polished(0.9, 0.1 + 1e-5);
     assert_eq!(validate(&scene).len(), 1);
