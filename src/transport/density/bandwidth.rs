@@ -1,16 +1,15 @@
 //! Bandwidth selection: radii of density estimates by the bias and variance that iterations measured.
 //!
-//! A wider disc over the same photons tells the bias. With the Epanechnikov kernel, discs of the radii `r` and `w r`
-//! give estimates whose difference has the mean `(w^2 - 1) b` and the variance `(1 - 1 / w^2)^2 v`, where `b ~ r^2` is the bias
-//! and `v ~ 1 / r^2` the variance of the estimate in the narrower disc. The squared
-//! error of a mean of `N` iterations with the radius `x r` is `x^4 b^2 + v / (N x^2)`; it is least where
-//! `x^6 = v / (2 N b^2)` (compare \[KD13\], who measure the Laplacian).
+//! A wider disc over the same photons tells the bias. With the Epanechnikov kernel, discs of the radii `r` and `lambda r` give estimates
+//! whose difference has the mean `(lambda^2 - 1) b` and the variance `(1 - 1 / lambda^2)^2 v`, where `b ~ r^2` is the bias and
+//! `v ~ 1 / r^2` the variance of the estimate in the narrower disc. The squared error of a mean of `N` iterations with the radius
+//! `gamma r` is `gamma^4 b^2 + v / (N gamma^2)`; it is least where `gamma^6 = v / (2 N b^2)` (compare \[KD13\], who measure the Laplacian).
 
 use super::cells::Cells;
 use super::schedule;
 use crate::transport::photons::{MapKind, PerMap};
 
-/// Radius of the wider disc over that of the narrower one.
+/// Radius of the wider disc over that of the narrower one: lambda.
 pub(in crate::transport) const WIDER: f64 = 1.5;
 /// Variance of a mean over photons of one low-discrepancy sequence over the variance for independent photons, as the best radius needs it.
 /// Measured: with 0.25 and with 1 the error of boxes with and without mirrors and glass is greater or takes more time.
@@ -216,7 +215,7 @@ fn best_factors(cells: Cells, sums: &[Sums], most: f64, total: f64, measured_at:
     // Differences that vary more than shot noise vary with the position in the pixel: the light is sharp there. Twice the shot noise may
     // still be chance, because one path may leave several photons.
     let sharpness = blurred(|sums| sums.variance() - 2.0 * sums.noise());
-    // x^6 = v / (2 N b^2), with v and b^2 from the variance and the squared expectation of the difference.
+    // gamma^6 = v / (2 N b^2), with v and b^2 from the variance and the squared expectation of the difference.
     let scale = EVENNESS * WIDER.powi(4) / (2.0 * total);
     let step = |signal: f64, variance: f64| {
         // Without photons the factor stays.
