@@ -84,7 +84,7 @@ fn spread_suns(world: &mut World) {
 #[allow(clippy::large_enum_variant, reason = "lives only while the tree is built; most of a large scene are patches")]
 enum Description {
     Ready(Primitive),
-    Patch(Box<ControlNet>, bool),
+    Patch { net: Box<ControlNet>, is_mirrored: bool },
 }
 
 /// The light of a scene, as the renderer reads it.
@@ -135,7 +135,7 @@ fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Su
             let mut nets = bezier.placed_nets();
             surfaces.extend(welded_sheets(&mut nets).into_iter().map(surface));
             let is_mirrored = bezier.transform.is_mirroring();
-            descriptions.extend(nets.into_iter().map(|net| Description::Patch(Box::new(net), is_mirrored)));
+            descriptions.extend(nets.into_iter().map(|net| Description::Patch { net: Box::new(net), is_mirrored }));
         } else {
             surfaces.push(surface(Place::default()));
             descriptions.push(Description::Ready(simple_primitive(&object.shape)));
@@ -170,12 +170,12 @@ fn aggregate(descriptions: Vec<Description>, previous: Option<&World>) -> Aggreg
         .enumerate()
         .map(|(index, description)| match (description, old.get(index)) {
             (Description::Ready(primitive), _) => primitive,
-            (Description::Patch(net, is_mirrored), Some(Primitive::Patch(patch)))
+            (Description::Patch { net, is_mirrored }, Some(Primitive::Patch(patch)))
                 if (patch.net(), patch.is_mirrored()) == (&*net, is_mirrored) =>
             {
                 Primitive::Patch(patch.clone())
             }
-            (Description::Patch(net, is_mirrored), _) => {
+            (Description::Patch { net, is_mirrored }, _) => {
                 Primitive::Patch(Arc::new(Patch::new(*net).mirrored(is_mirrored)))
             }
         })
