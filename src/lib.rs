@@ -121,6 +121,7 @@
 //! | visible point | point of a diffuse or glossy surface that a camera path reaches, and where photons are gathered |
 //! | facet | shading normal and albedo at one camera sample of a pixel on a surface with relief |
 //! | viewing lobe | last Phong lobe through which a camera path sees a point |
+//! | sun, beam | lights of parallel rays: from outside the scene, within a cone of directions; from a disc |
 //! | light importance | fraction of a light's photon paths that reach points that the camera may see |
 //!
 //! Photons and density estimates:
@@ -130,6 +131,7 @@
 //! | photon | flux that arrived at a point of a surface, with its direction |
 //! | photon map | kd-tree over photons; an iteration has four: for caustics, interreflection, indirect caustics and Phong lobes |
 //! | projection map | density over the first rays of a light (directions; for parallel rays, points across them) that aims photons at mirrors and glass, or at a scene that appears small |
+//! | chart | map from the unit square to the first rays of a light, on which a projection map is a density; keeps areas |
 //! | splat | flux of a caustic photon added to the pixel that sees it, without a density estimate (light tracing) |
 //! | density estimate | kernel-weighted sum of the flux of photons in a disc, over the kernel's integral: irradiance or radiance |
 //! | footprint | side of a pixel projected to the distance of a point, scene units |
@@ -154,6 +156,8 @@
 //! | band | whole rows of the film that the camera pass and the gather pass render independently |
 //! | heterogeneous pixel | pixel that shows several surfaces or a texture; gets at least four camera samples |
 //! | convergence rate | power of the number of samples with which the variance of their mean falls |
+//! | unseen light | bound of the light that a component may lack because no photon path has brought it yet; part of the error estimate |
+//! | warning | fault of a scene that can be rendered, such as open glass; with its effect on the picture and a remedy |
 //!
 //! Surfaces:
 //!
@@ -165,6 +169,16 @@
 //! | unit space | coordinates of a patch in which its box has a diagonal of 1/2 to 1 |
 //! | ray packet | eight rays that traverse a tree together, a ray in each SIMD lane |
 //! | lane | slot of a SIMD vector; a vector has eight |
+//!
+//! Bodies of glass:
+//!
+//! | word | meaning |
+//! |---|---|
+//! | body | one piece of glass: the surfaces of the objects with one `body`, or of one glass material |
+//! | priority | number of a glass material: where bodies overlap, the medium of the body with the highest priority applies |
+//! | rank | place of a body in the order by priority, then smaller bounding box, then later place in the file |
+//! | media | ranks of all bodies around a point of a path; the medium of the highest rank applies |
+//! | contact | coincidence of a surface of glass with other surfaces; a path crosses all of them at once |
 //!
 //! # References
 //!
@@ -181,10 +195,10 @@
 //! - \[HJ09\] T. Hachisuka, H. W. Jensen, Stochastic Progressive Photon Mapping, ACM TOG 28(5), 2009.
 //! - \[HOJ08\] T. Hachisuka, S. Ogaki, H. W. Jensen, Progressive Photon Mapping, ACM TOG 27(5), 2008.
 //! - \[Jensen96\] H. W. Jensen, Global Illumination using Photon Maps, EGWR 1996.
-//! - \[JonesFoster96\] M. C. Jones, P. J. Foster, A Simple Nonnegative Boundary Correction Method for Kernel Density Estimation, Statistica
-//!   Sinica 6, 1996.
 //! - \[JoeKuo08\] S. Joe, F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci.
 //!   Comput. 30, 2008.
+//! - \[JonesFoster96\] M. C. Jones, P. J. Foster, A Simple Nonnegative Boundary Correction Method for Kernel Density Estimation, Statistica
+//!   Sinica 6, 1996.
 //! - \[KD13\] A. Kaplanyan, C. Dachsbacher, Adaptive Progressive Photon Mapping, ACM TOG 32(2), 2013.
 //! - \[KellerHeidrich01\] A. Keller, W. Heidrich, Interleaved Sampling, EGWR 2001.
 //! - \[KZ11\] C. Knaus, M. Zwicker, Progressive Photon Mapping: A Probabilistic Approach, ACM TOG 30(3), 2011.
