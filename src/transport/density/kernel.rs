@@ -65,15 +65,15 @@ impl Moments {
         (slope, self.zeroth + slope.dot(self.first))
     }
 
-    /// The slope, or the part of it with which the kernel is [`MAX_DEPTH`] deep.
+    /// The slope, or the fraction of it with which the kernel is [`MAX_DEPTH`] deep.
     ///
     /// Let a be the slope's length times the radius, and b the part of the integral that the slope takes away. `1 + s d` is at least `1 - a`, and
     /// the estimate divides by `1 - b` of the integral, so it is at least `-(a - 1) / (1 - b)` times the estimate without a slope. That
-    /// factor is the depth; with the part c of the slope it is `(c a - 1) / (1 - c b)`.
+    /// factor is the depth; with the fraction c of the slope it is `(c a - 1) / (1 - c b)`.
     fn depth_limited(&self, slope: DVec2, radius: f64) -> DVec2 {
         let (a, b) = (slope.length() * radius, -slope.dot(self.first) / self.zeroth);
-        let part = (MAX_DEPTH + 1.0) / (a + MAX_DEPTH * b);
-        if part < 1.0 { part * slope } else { slope }
+        let fraction = (MAX_DEPTH + 1.0) / (a + MAX_DEPTH * b);
+        if fraction < 1.0 { fraction * slope } else { slope }
     }
 }
 
@@ -304,23 +304,25 @@ mod tests {
         }
     }
 
-    /// In the corner of a square the depth is 4.914 and the slope whole; in a corner of 10 degrees the least estimate is 5 times
-    /// the estimate without a slope, below 0: all photons lie at the far end of the slope.
+    /// In the corner of a wide square the depth is 4.914 and the slope whole; in the corner of a square a fifth as wide as the disc's radius
+    /// the slope is limited.
     #[test]
-    fn kernels_of_sharp_corners_have_less_slope() {
-        let depth = |slope: DVec2, integral: f64, moments: &Moments| (slope.length() - 1.0) * moments.zeroth / integral;
-        let corner = |v: DVec2| clipped_moments(DVec2::ZERO, DVec2::new(9.0, 0.0), v, [false; 4]);
-        let square = corner(DVec2::new(0.0, 9.0));
-        let (slope, integral) = square.linear(1.0);
-        assert!((depth(slope, integral, &square) - 4.914).abs() < 1e-3, "{}", depth(slope, integral, &square));
-        assert!((square.first + square.second * slope).length() < 1e-12, "the square's kernel has a first moment");
-        let sharp = corner(9.0 * DVec2::from_angle(10f64.to_radians()));
-        let (slope, integral) = sharp.linear(1.0);
-        assert!((depth(slope, integral, &sharp) - MAX_DEPTH).abs() < 1e-9, "{}", depth(slope, integral, &sharp));
-        // Depth is a pure number: a disc of half the radius has twice the slope.
-        let small =
-            Moments::of_polygon([DVec2::ZERO, DVec2::new(9.0, 0.0), 9.0 * DVec2::from_angle(10f64.to_radians())], 0.5);
-        assert!((small.linear(0.5).0 - 2.0 * slope).length() < 1e-9, "{}", small.linear(0.5).0);
+    fn kernels_on_small_surfaces_have_less_slope() {
+        let depth = |slope: DVec2, integral: f64, moments: &Moments, radius: f64| {
+            (slope.length() * radius - 1.0) * moments.zeroth / integral
+        };
+        let corner = |side: f64| clipped_moments(DVec2::ZERO, DVec2::new(side, 0.0), DVec2::new(0.0, side), [false; 4]);
+        let wide = corner(9.0);
+        let (slope, integral) = wide.linear(1.0);
+        assert!((depth(slope, integral, &wide, 1.0) - 4.914).abs() < 1e-3, "{}", depth(slope, integral, &wide, 1.0));
+        assert!((wide.first + wide.second * slope).length() < 1e-12, "the wide square's kernel has a first moment");
+        let small = corner(0.2);
+        let (slope, integral) = small.linear(1.0);
+        assert!((depth(slope, integral, &small, 1.0) - MAX_DEPTH).abs() < 1e-9, "{slope}, {integral}");
+        // Depth is a pure number: at half the size the slope is twice as large.
+        let corners = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]].map(DVec2::from_array);
+        let half = Moments::of_polygon(corners, 0.5);
+        assert!((half.linear(0.5).0 - 2.0 * slope).length() < 1e-9, "{}", half.linear(0.5).0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::small_targets::{Place, Target};
 use glam::DVec3;
 
-/// A cone of directions, or a disc in the plane of parallel rays: the places of a [`Chart`] up to a distance.
+/// A cone of directions, or a disc in the plane of parallel rays: the places of a [`Chart`](super::chart::Chart) up to a distance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
     /// The unit axis; the middle of the disc.
