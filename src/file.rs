@@ -1,11 +1,41 @@
-//! Writing files whole or not at all.
+//! Reading files up to a limit, and writing files whole or not at all.
 
 use std::{
     fs::{self, File},
-    io::{self, Write},
+    io::{self, Read, Write},
     path::{Path, PathBuf},
 };
 use tempfile::Builder;
+
+/// The bytes of a file.
+///
+/// # Errors
+///
+/// If the file cannot be read, has more than `limit` bytes, or is a folder, a pipe or a device, which may have no end.
+pub fn read_limited(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    // Before the file is opened: opening a pipe waits for its other end.
+    let metadata = fs::metadata(path)?;
+    if !metadata.is_file() {
+        let kind = if metadata.is_dir() { "a folder" } else { "a pipe or a device" };
+        return Err(io::Error::other(format!("it is {kind}, expected a file")));
+    }
+    let mut bytes = Vec::new();
+    // A file may grow, and some files of the system state a size of 0.
+    File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit {
+        return Err(io::Error::other(format!("it has more than {} MB, the most that is read", limit >> 20)));
+    }
+    Ok(bytes)
+}
+
+/// The text of a file in UTF-8.
+///
+/// # Errors
+///
+/// As [`read_limited`], and if the bytes are no UTF-8 text.
+pub fn read_text_limited(path: &Path, limit: u64) -> io::Result<String> {
+    String::from_utf8(read_limited(path, limit)?).map_err(|e| io::Error::other(e.utf8_error()))
+}
 
 /// Writes `bytes` to the file at `path`, whole or not at all: to a temporary file beside it, which is then renamed. Writes
 /// directly to pipes and devices.
@@ -61,6 +91,23 @@ mod tests {
         assert_eq!(error.kind(), io::ErrorKind::NotFound);
         assert!(!error.to_string().contains(".patchlight"), "{error}");
         assert!(error.to_string().contains("No such file"), "{error}");
+    }
+
+    #[test]
+    fn only_files_within_the_limit_are_read() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a");
+        fs::write(&path, vec![1; 2 << 20]).unwrap();
+        assert_eq!(read_limited(&path, 2 << 20).unwrap().len(), 2 << 20);
+        let refused = |path: &Path| read_limited(path, (2 << 20) - 1).unwrap_err().to_string();
+        assert_eq!(refused(&path), "it has more than 1 MB, the most that is read");
+        assert_eq!(refused(dir.path()), "it is a folder, expected a file");
+        #[cfg(unix)]
+        for device in ["/dev/zero", "/dev/null"] {
+            assert_eq!(refused(Path::new(device)), "it is a pipe or a device, expected a file");
+        }
+        fs::write(&path, b"\xff").unwrap();
+        assert!(read_text_limited(&path, 9).unwrap_err().to_string().contains("utf-8"));
     }
 
     #[cfg(unix)]

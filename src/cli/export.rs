@@ -4,7 +4,8 @@ use crate::scene::{Scene, SceneFile, Shape, SurfaceExport, SurfaceFormat};
 /// `patchlight export`: writes the Bezier patches of a scene in world space, as a mesh or as control points.
 pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
     let file = SceneFile::find(&arguments.scene)?;
-    let surface = chosen(&file.scene, arguments.object.as_deref())?;
+    let of_scene = |message: String| CliError::Usage(format!("{}: {message}", file.location.label()));
+    let surface = chosen(&file.scene, arguments.object.as_deref()).map_err(of_scene)?;
     let path = arguments.output.display();
     let format = SurfaceFormat::of(&arguments.output)
         .ok_or_else(|| CliError::Usage(format!("{path}: expected a name that ends in .obj or .bpt")))?;
@@ -12,17 +13,17 @@ pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
 }
 
 /// The patches of the object with this name, or of all objects that have patches.
-fn chosen(scene: &Scene, wanted: Option<&str>) -> Result<SurfaceExport, CliError> {
+fn chosen(scene: &Scene, wanted: Option<&str>) -> Result<SurfaceExport, String> {
     let all = scene.objects.iter().filter(|object| matches!(object.shape, Shape::Bezier(_)));
     let chosen = all.clone().filter(|object| wanted.is_none_or(|name| name == object.name));
     SurfaceExport::of(chosen).ok_or_else(|| {
         let names: Vec<_> = all.map(|object| object.name.as_str()).collect();
-        CliError::Usage(match wanted.filter(|_| !names.is_empty()) {
+        match wanted.filter(|_| !names.is_empty()) {
             Some(name) => {
                 let names = names.join(", ");
                 format!("no object of Bezier patches has the name `{name}`; their names are {names}")
             }
             None => "the scene has no object of Bezier patches".to_owned(),
-        })
+        }
     })
 }

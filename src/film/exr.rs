@@ -1,14 +1,21 @@
 use super::{ImageError, LinearImage};
-use crate::{file::write_whole, math::Rgb};
+use crate::{
+    file::{read_limited, write_whole},
+    math::Rgb,
+    scene::Film,
+};
+use exr::meta::MetaData;
 use exr::prelude::{
     Encoding, Image, Layer, LayerAttributes, ReadChannels, ReadLayers, ReadSpecificChannel, SpecificChannels,
     WritableImage, read,
 };
 use std::{
-    fs,
     io::{self, Cursor},
     path::Path,
 };
+
+/// Most bytes of a file: the largest picture of the program takes 3 GB without compression.
+const MAX_BYTES: u64 = 4 << 30;
 
 /// Writes an image as an OpenEXR file of 32-bit floats, without exposure and tone curve. The file is written whole or not at
 /// all.
@@ -34,9 +41,11 @@ pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), ImageError> {
 ///
 /// # Errors
 ///
-/// If the file cannot be read, or is not an OpenEXR file with such a layer.
+/// If the file cannot be read, is not an OpenEXR file with such a layer, or states a size that no film has.
 pub fn read_exr(path: &Path) -> Result<LinearImage, ImageError> {
-    let bytes = fs::read(path).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
+    let bytes = read_limited(path, MAX_BYTES).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
+    let wrong = |message: String| ImageError::Content { file: path.to_owned(), message };
+    check_sizes(&bytes).map_err(wrong)?;
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
@@ -53,17 +62,42 @@ pub fn read_exr(path: &Path) -> Result<LinearImage, ImageError> {
         .first_valid_layer()
         .all_attributes()
         .from_buffered(Cursor::new(bytes))
-        .map_err(|e| ImageError::Content {
-            file: path.to_owned(),
-            message: format!("not an OpenEXR image with channels R, G and B: {e}"),
-        })?;
+        .map_err(|e| wrong(not_exr(&e)))?;
     Ok(image.layer_data.channel_data.pixels)
+}
+
+/// Checks the sizes of all layers before memory is taken for their pixels.
+///
+/// # Errors
+///
+/// A message, if the header cannot be read, or a layer is larger than a film, or has fewer bytes in the file than its blocks take.
+fn check_sizes(bytes: &[u8]) -> Result<(), String> {
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| not_exr(&e))?;
+    for header in &meta.headers {
+        let (width, height) = (header.layer_size.width(), header.layer_size.height());
+        if width.max(height) > Film::MOST_PIXELS as usize {
+            return Err(format!(
+                "has {width} x {height} pixels, expected at most {most} x {most}",
+                most = Film::MOST_PIXELS
+            ));
+        }
+        // Each block has its offset and its size in the file.
+        if header.chunk_count * 12 > bytes.len() {
+            return Err(format!("has {width} x {height} pixels by its header, but ends before them"));
+        }
+    }
+    Ok(())
+}
+
+fn not_exr(error: &exr::error::Error) -> String {
+    format!("not an OpenEXR image with channels R, G and B: {error}")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, f16};
+    use std::fs;
 
     fn image() -> LinearImage {
         let pixels = (0..35).map(|k| Rgb::new(k as f32, 1.0 / (k as f32 + 1.0), 1e20 * k as f32)).collect();
@@ -88,6 +122,26 @@ mod tests {
         Image::from_channels(size, AnyChannels::sort(channels.into_iter().collect())).write().to_file(&path).unwrap();
         let read = read_exr(&path).unwrap();
         assert_eq!((read.width, read.height, read.pixels[5]), (3, 2, Rgb::splat(6.0)));
+    }
+
+    /// The data window of a header is at a fixed place in files of the program: the test writes another one there.
+    #[test]
+    fn huge_windows_take_no_memory() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.exr");
+        write_exr(&path, &image()).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        let name = b"dataWindow\0box2i\0";
+        let at = bytes.windows(name.len()).position(|window| window == name).unwrap() + name.len() + 4;
+        for (size, phrase) in [(200_000, "expected at most 16384"), (16_384, "not an OpenEXR image")] {
+            let mut bytes = bytes.clone();
+            for corner in [at + 8, at + 12] {
+                bytes[corner..corner + 4].copy_from_slice(&(size - 1i32).to_le_bytes());
+            }
+            fs::write(&path, &bytes).unwrap();
+            let error = read_exr(&path).unwrap_err().to_string();
+            assert!(error.contains("a.exr") && (error.contains(phrase) || error.contains("ends before")), "{error}");
+        }
     }
 
     #[test]

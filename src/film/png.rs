@@ -1,7 +1,10 @@
 use super::{ImageError, LinearImage, ToneMap};
-use crate::file::write_whole;
+use crate::file::{read_limited, write_whole};
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
-use std::{fs, io, path::Path};
+use std::{io, path::Path};
+
+/// Most bytes of a mask: more than the largest picture of the program takes without compression.
+const MAX_MASK_BYTES: u64 = 1 << 30;
 
 /// Writes an image as an sRGB PNG file of 8 bits per channel. The file is written whole or not at all.
 ///
@@ -35,7 +38,8 @@ impl Mask {
     ///
     /// If the file cannot be read or decoded.
     pub fn read(path: &Path) -> Result<Self, ImageError> {
-        let bytes = fs::read(path).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
+        let bytes =
+            read_limited(path, MAX_MASK_BYTES).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
         let image = image::load_from_memory(&bytes)
             .map_err(|e| ImageError::Content { file: path.to_owned(), message: e.to_string() })?
             .into_luma8();
@@ -56,6 +60,7 @@ impl Mask {
 mod tests {
     use super::*;
     use crate::{math::Rgb, scene::ToneCurve};
+    use std::fs;
 
     #[test]
     fn rows_begin_at_the_top() {

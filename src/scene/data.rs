@@ -1,4 +1,5 @@
 use super::{Camera, Film, Light, Material, Object, Render, Texture};
+use std::collections::HashMap;
 
 /// The version of the scene format that the program reads and writes.
 pub(super) const VERSION: u32 = 1;
@@ -22,4 +23,11 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The surfaces.
     pub objects: Vec<Object>,
+}
+
+impl Scene {
+    /// The index of each material, by its name.
+    pub fn materials_by_name(&self) -> HashMap<&str, usize> {
+        self.materials.iter().enumerate().map(|(index, material)| (material.name.as_str(), index)).collect()
+    }
 }

@@ -20,11 +20,13 @@ pub enum SceneError {
         /// The problems; never empty.
         problems: Vec<LocatedProblem>,
     },
-    /// The file is a `.bpt` file of control points, not a scene.
-    #[error("{}: is a file of control points, not a scene; use it in an object of type \"bezier\" as `file = ...`", file.display())]
-    ControlPoints {
+    /// The `.bpt` file holds no valid patches.
+    #[error("{}: {problem}", file.display())]
+    Patches {
         /// The path of the `.bpt` file.
         file: PathBuf,
+        /// The error.
+        problem: String,
     },
     /// There is no scene file and no built-in scene of this name.
     #[error("{name}: no such scene file or built-in scene; the built-in scenes are {known}{suggestion}")]
@@ -60,9 +62,36 @@ pub struct LocatedProblem {
 impl LocatedProblem {
     /// The problem at a byte offset of the text.
     pub(super) fn at(text: &str, offset: usize, problem: Problem) -> Self {
-        let before = text.get(..offset).unwrap_or(text);
-        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        Self { line: 1 + before.matches('\n').count(), column: 1 + before[line_start..].chars().count(), problem }
+        let mut lines = Lines { text, start: 0, line: 1 };
+        lines.locate(offset, problem)
+    }
+
+    /// Problems with their byte offsets in a text, in the order of the text. One pass over the text, however many problems there are.
+    pub(super) fn all(text: &str, mut problems: Vec<(usize, Problem)>) -> Vec<Self> {
+        problems.sort_by_key(|(offset, _)| *offset);
+        let mut lines = Lines { text, start: 0, line: 1 };
+        problems.into_iter().map(|(offset, problem)| lines.locate(offset, problem)).collect()
+    }
+}
+
+/// A place in a text, which moves on line by line.
+struct Lines<'a> {
+    text: &'a str,
+    /// Byte offset of the beginning of the line.
+    start: usize,
+    /// Number of the line, from 1.
+    line: usize,
+}
+
+impl Lines<'_> {
+    /// The problem at an offset, which must not lie before the line of the previous call.
+    fn locate(&mut self, offset: usize, problem: Problem) -> LocatedProblem {
+        let offset = if self.text.is_char_boundary(offset) { offset } else { self.text.len() };
+        while let Some(length) = self.text[self.start..offset].find('\n') {
+            self.start += length + 1;
+            self.line += 1;
+        }
+        LocatedProblem { line: self.line, column: 1 + self.text[self.start..offset].chars().count(), problem }
     }
 }
 
@@ -94,5 +123,9 @@ mod tests {
         let problem = Problem { path: String::new(), message: String::new() };
         let located = LocatedProblem::at(text, text.find('2').unwrap(), problem);
         assert_eq!((located.line, located.column), (2, 8));
+        let problem = || Problem { path: String::new(), message: String::new() };
+        let all = LocatedProblem::all(text, [15, 6, 0, 99].map(|offset| (offset, problem())).to_vec());
+        let places: Vec<_> = all.iter().map(|located| (located.line, located.column)).collect();
+        assert_eq!(places, [(1, 1), (2, 1), (2, 9), (3, 1)], "in the order of the text; beyond it, at its end");
     }
 }

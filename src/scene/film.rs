@@ -11,6 +11,11 @@ pub struct Film {
     pub tone_curve: ToneCurve,
 }
 
+impl Film {
+    /// Most pixels along a side.
+    pub const MOST_PIXELS: u32 = 16384;
+}
+
 impl Default for Film {
     fn default() -> Self {
         Self { width: 512, height: 512, exposure: 0.0, tone_curve: ToneCurve::Srgb }

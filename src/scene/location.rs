@@ -1,18 +1,20 @@
 use super::built_in::embedded;
 use crate::{
-    file::folder,
+    file::{folder, read_limited},
     geometry::bezier::{ControlNet, read_bpt},
 };
-use image::{DynamicImage, ImageError, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageReader};
 use std::{
     borrow::Cow,
-    fs,
     io::{self, Cursor},
     path::{Path, PathBuf},
 };
 
 /// The greatest number of texels of a texture: 8192 x 8192, which take 800 MB while they are decoded.
 const MAX_TEXELS: u64 = 1 << 26;
+
+/// Most bytes of a file that a scene names: more than the largest texture takes without compression.
+const MAX_BYTES: u64 = 1 << 30;
 
 /// The location of a scene, which the paths in it are relative to.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -34,7 +36,7 @@ impl Location {
     /// If the file cannot be read.
     pub fn read(&self, relative: &str) -> io::Result<Cow<'static, [u8]>> {
         match self.path_on_disk(relative) {
-            Some(path) => fs::read(path).map(Cow::Owned),
+            Some(path) => read_limited(&path, MAX_BYTES).map(Cow::Owned),
             None => embedded(&self.embedded_path(relative))
                 .map(Cow::Borrowed)
                 .ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "no such file among the built-in scenes")),
@@ -52,7 +54,7 @@ impl Location {
         read_bpt(text).map_err(|e| format!("\"{relative}\": {e}"))
     }
 
-    /// The decoded PNG or JPEG file that the scene names.
+    /// The decoded PNG or JPEG file that the scene names, upright by the orientation that its EXIF data states.
     ///
     /// # Errors
     ///
@@ -65,7 +67,11 @@ impl Location {
         if u64::from(width) * u64::from(height) > MAX_TEXELS {
             return Err(format!("\"{relative}\" has {width} x {height} pixels, expected at most 8192 x 8192"));
         }
-        reader().map_err(|e| damaged(e.into()))?.decode().map_err(damaged)
+        let mut decoder = reader().map_err(|e| damaged(e.into()))?.into_decoder().map_err(damaged)?;
+        let orientation = decoder.orientation().map_err(damaged)?;
+        let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+        picture.apply_orientation(orientation);
+        Ok(picture)
     }
 
     /// The path of a file that the scene names; `None` for a file inside the program.
@@ -124,4 +130,21 @@ pub(super) fn relative_to(folder: &Path, path: &Path) -> io::Result<String> {
         .to_str()
         .ok_or_else(|| io::Error::other("the path is not valid Unicode, which a scene file cannot hold"))?;
     Ok(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A JPEG whose rows are the columns of the picture: EXIF orientation 6, to be turned right.
+    #[test]
+    fn pictures_stand_upright() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/exif/orientation-6.jpg");
+        let picture = Location::Unsaved.read_picture(file).unwrap().into_rgb8();
+        let (width, height) = picture.dimensions();
+        let [red, green, blue] = picture.get_pixel(width / 4, height / 4).0;
+        assert!(blue > 150 && red < 60 && green < 60, "blue at the top left: {red} {green} {blue}");
+        let [red, _, blue] = picture.get_pixel(3 * width / 4, height / 4).0;
+        assert!(red > 150 && blue < 60, "red at the top right");
+    }
 }

@@ -13,6 +13,7 @@
 //! | `location` | [`Location`]: finds the files that a scene names |
 //! | `validate/` | [`validate()`]: the errors of a scene, from a file or from the window |
 //! | `load/`, `save/` | from text to a scene, and back |
+//! | `surface_scene` | the scene that shows the patches of a `.bpt` file |
 //! | `file/` | [`SceneFile`]: opens and saves scenes with the files that they name |
 //! | `surface_export` | [`SurfaceExport`]: patches as `.obj` or `.bpt` |
 
@@ -32,6 +33,7 @@ mod problem;
 mod render;
 mod save;
 mod surface_export;
+mod surface_scene;
 mod texture;
 mod validate;
 

@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::fmt;
 
 /// An error in a scene.
@@ -11,22 +12,36 @@ pub struct Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.path.is_empty() { f.write_str(&self.message) } else { write!(f, "{}: {}", self.path, self.message) }
+        let (path, message) = (shortened(&self.path), shortened(&self.message));
+        if path.is_empty() { f.write_str(&message) } else { write!(f, "{path}: {message}") }
     }
 }
 
-/// Whether `path` is `ancestor` or the path of a value inside it.
-pub(super) fn is_within(path: &str, ancestor: &str) -> bool {
-    path.strip_prefix(ancestor)
-        .is_some_and(|rest| rest.is_empty() || ancestor.is_empty() || rest.starts_with(['.', '[']))
+/// A text that fits some lines of a terminal: the beginning and the end of a longer one.
+fn shortened(text: &str) -> Cow<'_, str> {
+    /// Bytes of each end.
+    const END: usize = 300;
+    if text.len() <= 2 * END {
+        return Cow::Borrowed(text);
+    }
+    let (start, end) = (text.floor_char_boundary(END), text.ceil_char_boundary(text.len() - END));
+    Cow::Owned(format!("{} ... {}", &text[..start], &text[end..]))
 }
+
+/// Most letters of a name for which another one is suggested: the distance of two names takes the product of their lengths.
+const LONGEST_SUGGESTED: usize = 64;
 
 /// A suggestion for the end of a message: the known name nearest to `name`, or empty if no name is near.
 pub(super) fn suggestion<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     // Typing errors make about one edit in three letters; a larger limit would suggest unrelated words.
-    let limit = 1 + name.chars().count() / 3;
+    let length = name.chars().count();
+    if length > LONGEST_SUGGESTED {
+        return String::new();
+    }
+    let limit = 1 + length / 3;
     known
         .into_iter()
+        .filter(|candidate| candidate.len().abs_diff(name.len()) <= 4 * limit)
         .map(|candidate| (strsim::damerau_levenshtein(&name.to_lowercase(), &candidate.to_lowercase()), candidate))
         .filter(|(distance, _)| *distance <= limit)
         .min_by_key(|(distance, _)| *distance)
@@ -46,10 +61,9 @@ mod tests {
     }
 
     #[test]
-    fn paths_nest() {
-        assert!(is_within("object[2].radius", "object[2]"));
-        assert!(is_within("object[2]", "object[2]"));
-        assert!(is_within("anything", ""));
-        assert!(!is_within("object[21]", "object[2]"));
+    fn long_texts_are_shortened() {
+        let problem = Problem { path: "ä".repeat(1000), message: "x".repeat(10_000_000) };
+        let text = problem.to_string();
+        assert!(text.len() < 1300 && text.starts_with("ää") && text.ends_with('x'), "{}", text.len());
     }
 }

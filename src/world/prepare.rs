@@ -117,8 +117,9 @@ pub(super) fn light(light: &scene::Light) -> Light {
 fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Surface>), PrepareError> {
     let mut descriptions = Vec::new();
     let mut surfaces = Vec::new();
+    let materials = scene.materials_by_name();
     for (index, object) in scene.objects.iter().enumerate() {
-        let material = scene.materials.iter().position(|m| m.name == object.material).ok_or_else(|| {
+        let material = *materials.get(object.material.as_str()).ok_or_else(|| {
             let user = format!("object `{}`", object.name);
             PrepareError::UnknownName { user, kind: "material", name: object.material.clone() }
         })?;

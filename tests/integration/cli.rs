@@ -135,10 +135,64 @@ fn a_black_scene_ends_by_error_too() {
 }
 
 #[test]
-fn control_points_are_not_a_scene() {
+fn a_file_of_control_points_is_shown_as_a_scene() {
     let dir = folder();
+    let patch = "# one patch\n1\n3 3\n0 0 0 0 0 1 0 0 2 0 0 3  1 0 0 1 1 1 1 1 2 1 0 3
+        2 0 0 2 1 1 2 1 2 2 0 3  3 0 0 3 0 1 3 0 2 3 0 3 # the last row\n";
+    fs::write(dir.path().join("sheet.bpt"), patch).unwrap();
+    let run = patchlight(dir.path(), &["render", "sheet.bpt", "-o", "a.exr", "--iterations", "2", "--size", "48x48"]);
+    assert!(run.status.success(), "{}", stderr(&run));
+    let picture = patchlight::film::read_exr(&dir.path().join("a.exr")).unwrap();
+    // The patch of albedo 0.7 fills the middle, under a light that would give a radiance of 0.7 where it falls straight.
+    let middle = picture.pixels[24 * 48 + 24].x;
+    assert!((0.3..0.8).contains(&middle), "{middle}");
+    fs::write(dir.path().join("sheet.bpt"), "1\n3 3\n0 0").unwrap();
+    fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt: line 3: the file ends"]);
     fs::write(dir.path().join("sheet.bpt"), "0\n").unwrap();
-    fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt: is a file of control points", "file = "]);
+    assert!(patchlight(dir.path(), &["check", "sheet.bpt"]).status.success(), "no patch is no error");
+}
+
+#[test]
+fn files_without_end_are_refused() {
+    let dir = folder();
+    fails(&patchlight(dir.path(), &["check", "."]), 2, &[".: cannot be read: it is a folder"]);
+    if cfg!(unix) {
+        fails(&patchlight(dir.path(), &["check", "/dev/zero"]), 2, &["/dev/zero", "a pipe or a device"]);
+        assert!(Command::new("mkfifo").arg(dir.path().join("pipe")).status().unwrap().success());
+        fails(&patchlight(dir.path(), &["check", "pipe"]), 2, &["pipe: cannot be read", "a pipe or a device"]);
+        let textured = SCENE.to_owned() + "[[texture]]\nname = \"t\"\nfile = \"pipe\"\n";
+        fs::write(dir.path().join("t.toml"), textured).unwrap();
+        fails(&patchlight(dir.path(), &["check", "t.toml"]), 2, &["texture[0].file", "a pipe or a device"]);
+    }
+}
+
+#[test]
+fn messages_name_the_file_and_a_way_to_mend_it() {
+    let dir = folder();
+    let without_digit = SCENE.replace("fov_y = 40", "fov_y = .5");
+    fs::write(dir.path().join("digit.toml"), without_digit).unwrap();
+    fails(&patchlight(dir.path(), &["check", "digit.toml"]), 2, &["digit.toml:7:9", "as in 0.5"]);
+    fails(&patchlight(dir.path(), &["export", "ball.toml", "-o", "a.obj"]), 2, &["ball.toml: the scene has no object"]);
+    let render = ["render", "ball.toml", "-o", "a.exr", "--iterations", "1", "--size", "6x4"];
+    assert!(patchlight(dir.path(), &render).status.success());
+    let mask = ["render", "ball.toml", "-o", "mask.png", "--iterations", "1", "--size", "6x6"];
+    assert!(patchlight(dir.path(), &mask).status.success());
+    let bench = ["bench", "ball.toml", "--reference", "a.exr", "--mask", "mask.png"];
+    fails(&patchlight(dir.path(), &bench), 2, &["mask.png: the mask has 6 x 6 pixels", "6 x 4"]);
+}
+
+/// A problem each in some ten thousand objects, with names that are near to none: the first twenty are listed, the others counted.
+#[test]
+fn many_mistakes_are_counted() {
+    let dir = folder();
+    let object = |k: u32| {
+        format!("[[object]]\nname = \"{k}\"\ntype = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"w{k}\"\n")
+    };
+    let text = SCENE.to_owned() + &(0..20_000).map(object).collect::<String>();
+    fs::write(dir.path().join("many.toml"), text).unwrap();
+    let run = patchlight(dir.path(), &["check", "many.toml"]);
+    fails(&run, 2, &["object[1].material: found \"w0\"", "many.toml: and 19980 more problems"]);
+    assert_eq!(stderr(&run).lines().count(), 21);
 }
 
 #[test]

@@ -28,7 +28,7 @@ use super::{
     rendering::pool,
 };
 use crate::{
-    film::{Mask, read_exr},
+    film::{ImageError, Mask, read_exr},
     scene::SceneFile,
     transport::Component,
 };
@@ -54,11 +54,11 @@ fn bench_scene(scene: &Path, reference: &Path, arguments: &BenchArguments) -> Re
     arguments.csv.as_deref().map_or(Ok(()), needs_folder)?;
     arguments.plot.as_deref().map_or(Ok(()), needs_png)?;
     let file = SceneFile::find(scene)?;
-    let reference = read_exr(reference)?;
+    let picture = read_exr(reference)?;
     let second = arguments.second_reference.as_deref().map(read_exr).transpose()?;
     let mask = arguments.mask.as_deref().map(Mask::read).transpose()?;
-    let trial = Trial::new(file, Truth::new(reference, second, mask)?, &arguments.seconds, arguments.seeds)
-        .only(arguments.only.map(Component::from));
+    let truth = Truth::new(picture, second, mask).map_err(|e| in_file(&e, reference, arguments))?;
+    let trial = Trial::new(file, truth, &arguments.seconds, arguments.seeds).only(arguments.only.map(Component::from));
     let rows = pool(arguments.threads)?.install(|| trial.measure())?;
     if let Some(path) = &arguments.csv {
         write(path, csv::csv(&rows).as_bytes())?;
@@ -67,6 +67,16 @@ fn bench_scene(scene: &Path, reference: &Path, arguments: &BenchArguments) -> Re
         write(path, &plot::png(&trial.file.scene.name, &rows)?)?;
     }
     Ok(())
+}
+
+/// The error of images that differ in size, with the name of the file at fault.
+fn in_file(error: &ImageError, reference: &Path, arguments: &BenchArguments) -> CliError {
+    let file = match error {
+        ImageError::Size { what: "mask", .. } => arguments.mask.as_deref(),
+        ImageError::Size { what: "second reference", .. } => arguments.second_reference.as_deref(),
+        _ => None,
+    };
+    CliError::Usage(format!("{}: {error}", file.unwrap_or(reference).display()))
 }
 
 /// Fails before the rendering if the plot cannot be written to this path.

@@ -11,13 +11,16 @@ mod rays;
 mod table_error;
 
 use super::{CliError, args::IntersectArguments};
+use crate::file::read_text_limited;
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Hit, Primitive};
-use std::fs;
 use std::io::{BufWriter, Write, stdout};
 use std::path::Path;
 use std::sync::Arc;
 use table_error::TableError;
+
+/// Most bytes of the files of patches and rays: some ten million rays.
+const MAX_BYTES: u64 = 2 << 30;
 
 /// Prints a line for each ray: `0,,,` for a miss, `1,t,u,v` for a hit, with `,patch` (the index in the file, from 0) if there
 /// are several patches.
@@ -58,7 +61,7 @@ fn chosen(patches: Vec<(String, ControlNet)>, arguments: &IntersectArguments) ->
 }
 
 fn text(path: &Path) -> Result<String, CliError> {
-    fs::read_to_string(path).map_err(|e| CliError::Usage(format!("{}: {e}", path.display())))
+    read_text_limited(path, MAX_BYTES).map_err(|e| CliError::Usage(format!("{}: cannot be read: {e}", path.display())))
 }
 
 fn wrong(path: &Path, error: &TableError) -> CliError {

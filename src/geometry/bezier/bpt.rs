@@ -1,5 +1,6 @@
 //! The `.bpt` format: the number of patches, then for each patch its degrees `3 3` and 16 points `x y z`, in rows of four
-//! along v, one row per index along u. White space separates numbers; line breaks have no other meaning.
+//! along v, one row per index along u. White space separates numbers; line breaks have no other meaning, but to end a comment, which `#`
+//! begins.
 
 use super::ControlNet;
 use glam::DVec3;
@@ -99,8 +100,11 @@ struct Words<'a> {
 
 impl<'a> Words<'a> {
     fn new(text: &'a str) -> Self {
-        let words =
-            text.lines().enumerate().flat_map(|(k, line)| line.split_whitespace().map(move |word| (k + 1, word)));
+        let without_comment = |line: &'a str| line.split('#').next().unwrap_or_default();
+        let words = text
+            .lines()
+            .enumerate()
+            .flat_map(move |(k, line)| without_comment(line).split_whitespace().map(move |word| (k + 1, word)));
         Self { words: Box::new(words), line: 1, last_line: text.lines().count().max(1) }
     }
 
@@ -148,6 +152,14 @@ mod tests {
         let nets = vec![net(), net().map(|p| p * 1e-300 + 1e5 / 3.0)];
         assert_eq!(read_bpt(&write_bpt(&nets)).unwrap(), nets);
         assert_eq!(read_bpt("0\n").unwrap(), vec![]);
+    }
+
+    #[test]
+    fn comments_end_with_their_line() {
+        let text = write_bpt(&[net()]);
+        let commented = format!("# patches\n{}# the end", text.replace("3 3\n", "3 3 # bicubic, 4 x 4\n#\n"));
+        assert_eq!(read_bpt(&commented).unwrap(), vec![net()]);
+        assert_eq!(read_bpt("1 # patch\n\nx").unwrap_err().line, 3);
     }
 
     #[test]

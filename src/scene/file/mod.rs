@@ -2,13 +2,17 @@
 
 use super::{
     LocatedProblem, Location, Problem, Scene, SceneError, Shape, built_in::embedded, built_in_scenes, load,
-    location::relative_to, problem::suggestion, save,
+    location::relative_to, problem::suggestion, save, surface_scene::scene_of_patches, validate,
 };
-use crate::file::{folder, write_whole};
+use crate::file::{folder, read_limited, write_whole};
+use crate::geometry::bezier::read_bpt;
 use std::{
     fs, io,
     path::{Path, PathBuf},
 };
+
+/// Most bytes of a scene file: some 200,000 patches.
+const MAX_SCENE_BYTES: u64 = 256 << 20;
 
 /// A scene with its location.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -20,19 +24,33 @@ pub struct SceneFile {
 }
 
 impl SceneFile {
-    /// Reads a scene file, validates it and checks the files that it names.
+    /// Reads a scene file, validates it and checks the files that it names. A `.bpt` file becomes an unsaved scene that shows its patches.
     ///
     /// # Errors
     ///
     /// If the file cannot be read or is not a valid scene; the error then lists all problems.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
-        let bytes = fs::read(path).map_err(|source| SceneError::Read { file: path.to_owned(), source })?;
+        let bytes =
+            read_limited(path, MAX_SCENE_BYTES).map_err(|source| SceneError::Read { file: path.to_owned(), source })?;
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bpt")) {
-            return Err(SceneError::ControlPoints { file: path.to_owned() });
+            return Self::of_patches(path, &bytes);
         }
         let location = Location::Disk(path.to_owned());
         let text = String::from_utf8(bytes).map_err(|e| not_utf8(&e, &location))?;
         Self::parse(&text, location)
+    }
+
+    fn of_patches(path: &Path, bytes: &[u8]) -> Result<Self, SceneError> {
+        let failed = |problem: String| SceneError::Patches { file: path.to_owned(), problem };
+        let text = str::from_utf8(bytes).map_err(|e| failed(format!("is not UTF-8 text: {e}")))?;
+        let nets = read_bpt(text).map_err(|e| failed(e.to_string()))?;
+        let absolute = std::path::absolute(path).map_err(|e| failed(e.to_string()))?;
+        let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let scene = scene_of_patches(&name, nets, absolute.display().to_string());
+        match validate(&scene).first() {
+            Some(problem) => Err(failed(format!("its patches make no valid scene: {problem}"))),
+            None => Ok(Self { scene, location: Location::Unsaved }),
+        }
     }
 
     /// The scene of a command line: the scene file at this path, or else the built-in scene of this name.

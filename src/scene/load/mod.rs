@@ -12,7 +12,7 @@ mod notes;
 mod table;
 mod tables;
 
-use super::{LocatedProblem, Location, Problem, Scene, Shape, problem::is_within, validate};
+use super::{LocatedProblem, Location, Problem, Scene, Shape, validate};
 use notes::Notes;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ use toml::de::DeTable;
 pub(super) fn parse(text: &str, location: &Location) -> Result<Scene, Vec<LocatedProblem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        return Err(errors.iter().map(|e| syntax_problem(text, e)).collect());
+        return Err(LocatedProblem::all(text, errors.iter().map(|e| syntax_problem(text, e)).collect()));
     }
     let mut notes = Notes::default();
     let mut scene = tables::scene(root.get_ref(), &mut notes);
@@ -36,7 +36,8 @@ pub(super) fn parse(text: &str, location: &Location) -> Result<Scene, Vec<Locate
     notes.finish(text).map(|()| scene)
 }
 
-fn syntax_problem(text: &str, error: &toml::de::Error) -> LocatedProblem {
+/// A syntax error with its byte offset.
+fn syntax_problem(text: &str, error: &toml::de::Error) -> (usize, Problem) {
     let span = error.span().unwrap_or(0..0);
     let found = text.get(span.clone()).unwrap_or_default();
     let rest_of_line = text.get(span.start..).unwrap_or_default().lines().next().unwrap_or_default().trim();
@@ -46,9 +47,21 @@ fn syntax_problem(text: &str, error: &toml::de::Error) -> LocatedProblem {
         said if said.starts_with("string values must be quoted") && rest_of_line.is_empty() => {
             "expected a value after `=`, found none".to_owned()
         }
+        said if needs_digit_before_point(text, span.start) => {
+            format!("{}; a number needs a digit before its point, as in 0.5", said.replace('\n', "; "))
+        }
         said => said.replace('\n', "; "),
     };
-    LocatedProblem::at(text, span.start, Problem { path: String::new(), message })
+    (span.start, Problem { path: String::new(), message })
+}
+
+/// Whether the value at or around this offset begins with a point, like `.5` or `-.5`.
+fn needs_digit_before_point(text: &str, offset: usize) -> bool {
+    let begins = |c: char| matches!(c, '.' | '+' | '-') || c.is_ascii_digit();
+    let before = text.get(..offset).unwrap_or_default();
+    let start = before.trim_end_matches(begins).len();
+    let value = text.get(start..).unwrap_or_default().trim_start_matches(['+', '-']);
+    value.strip_prefix('.').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// Adds the problems of [`validate()`], except problems that follow from an unreadable value.
@@ -58,10 +71,8 @@ fn add_invalid(scene: &Scene, notes: &mut Notes) {
     }
     for Problem { path, message } in validate(scene) {
         let read_from = path.strip_suffix(".patches").map(|object| format!("{object}.file"));
-        let follows = |reported: &str| {
-            is_within(&path, reported) || is_within(reported, &path) || read_from.as_deref() == Some(reported)
-        };
-        if !notes.problem_paths().any(follows) {
+        let follows = notes.has_problem_near(&path) || read_from.is_some_and(|file| notes.has_problem_at(&file));
+        if !follows {
             notes.add(&path, message);
         }
     }

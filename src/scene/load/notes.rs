@@ -1,11 +1,14 @@
 use crate::scene::{LocatedProblem, Problem};
-use std::{collections::BTreeMap, ops::Range};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::{Bound, Range};
 
 /// The positions of values in the text, and the problems with them.
 #[derive(Default)]
 pub(super) struct Notes {
     spans: BTreeMap<String, Range<usize>>,
     problems: Vec<Problem>,
+    /// The paths of the problems.
+    paths: BTreeSet<String>,
 }
 
 impl Notes {
@@ -16,15 +19,23 @@ impl Notes {
 
     /// Reports a problem with the value at `path`.
     pub(super) fn add(&mut self, path: &str, message: String) {
+        self.paths.insert(path.to_owned());
         self.problems.push(Problem { path: path.to_owned(), message });
     }
 
+    /// Whether there is a problem with this value.
     pub(super) fn has_problem_at(&self, path: &str) -> bool {
-        self.problem_paths().any(|p| p == path)
+        self.paths.contains(path)
     }
 
-    pub(super) fn problem_paths(&self) -> impl Iterator<Item = &str> {
-        self.problems.iter().map(|p| p.path.as_str())
+    /// Whether there is a problem with this value, a value inside it, or a value around it.
+    pub(super) fn has_problem_near(&self, path: &str) -> bool {
+        let inside = [".", "["].map(|separator| format!("{path}{separator}"));
+        let has_inside = inside.iter().any(|start| {
+            let next = self.paths.range::<str, _>((Bound::Included(start.as_str()), Bound::Unbounded)).next();
+            next.is_some_and(|next| next.starts_with(start))
+        });
+        has_inside || around(path).any(|around| self.has_problem_at(around))
     }
 
     /// `Ok` without problems; else all problems in the order of the text.
@@ -33,23 +44,41 @@ impl Notes {
             return Ok(());
         }
         let spans = self.spans;
-        let mut located: Vec<_> =
-            self.problems.into_iter().map(|p| LocatedProblem::at(text, offset_of(&spans, &p.path), p)).collect();
-        located.sort_by_key(|p| (p.line, p.column));
+        let at = |problem: Problem| (offset_of(&spans, &problem.path), problem);
+        let located = LocatedProblem::all(text, self.problems.into_iter().map(at).collect());
         Err(located)
     }
 }
 
 /// The position of the value at `path`, or of the innermost table or list around it that has a position.
 fn offset_of(spans: &BTreeMap<String, Range<usize>>, path: &str) -> usize {
-    let mut path = path;
-    loop {
-        if let Some(span) = spans.get(path) {
-            return span.start;
+    around(path).find_map(|path| spans.get(path)).map_or(0, |span| span.start)
+}
+
+/// The path itself, the paths of the values around it from the inside out, and the path of the whole scene.
+fn around(path: &str) -> impl Iterator<Item = &str> {
+    std::iter::successors(Some(path), |path| match path.rfind(['.', '[']) {
+        Some(end) => Some(&path[..end]),
+        None => (!path.is_empty()).then_some(""),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn problems_are_near_values_inside_and_around_them() {
+        let mut notes = Notes::default();
+        notes.add("object[2]", String::new());
+        notes.add("light[1].radius", String::new());
+        for near in ["object[2].radius", "object[2]", "object[2].patches[3][1]", "light[1]", "light"] {
+            assert!(notes.has_problem_near(near), "{near}");
         }
-        match path.rfind(['.', '[']) {
-            Some(end) => path = &path[..end],
-            None => return 0,
+        for far in ["object[21]", "object[1]", "light[1].center", "light[1].radius_v", "lights"] {
+            assert!(!notes.has_problem_near(far), "{far}");
         }
+        notes.add("", String::new());
+        assert!(notes.has_problem_near("anything"), "the whole scene");
     }
 }

@@ -3,6 +3,7 @@ use crate::{
     scene::{Problem, problem::suggestion},
 };
 use glam::DVec3;
+use std::collections::BTreeSet;
 
 /// The largest coordinate: its cube in f64, and the square of a transformed coordinate in f32, are far from overflow.
 pub(super) const MAX_LENGTH: f64 = 1e9;
@@ -12,6 +13,9 @@ pub(super) const MIN_LENGTH: f64 = 1e-9;
 
 /// The largest radiance: its sums and products are far from overflow in f32.
 const MAX_RADIANCE: f32 = 1e12;
+
+/// Problems of a scene up to which messages suggest names: each suggestion compares a name with all others.
+const MOST_SUGGESTIONS: usize = 100;
 
 /// Checks of the values at one path, which collect the problems.
 pub(super) struct Checks<'a> {
@@ -74,10 +78,12 @@ impl<'a> Checks<'a> {
         self.require(fits, key, || format!("found {:?}, expected 0 to {MAX_RADIANCE:?} in each channel", c.to_array()));
     }
 
-    /// Requires one of the known names.
-    pub(super) fn name(&mut self, key: &str, name: &str, kind: &str, known: &[&str]) {
-        self.require(known.contains(&name), key, || {
-            format!("found \"{name}\", expected the name of a {kind}{}", suggestion(name, known.iter().copied()))
+    /// Requires one of the known names. The first problems suggest a near name.
+    pub(super) fn name(&mut self, key: &str, name: &str, kind: &str, known: &BTreeSet<&str>) {
+        let suggests = self.problems.len() < MOST_SUGGESTIONS;
+        self.require(known.contains(name), key, || {
+            let near = if suggests { suggestion(name, known.iter().copied()) } else { String::new() };
+            format!("found \"{name}\", expected the name of a {kind}{near}")
         });
     }
 }

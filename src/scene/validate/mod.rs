@@ -74,7 +74,9 @@ fn camera(camera: &Camera, checks: &mut Checks<'_>) {
 
 fn film(film: &Film, checks: &mut Checks<'_>) {
     for (key, pixels) in [("width", film.width), ("height", film.height)] {
-        checks.require((1..=16384).contains(&pixels), key, || format!("found {pixels}, expected 1 to 16384 pixels"));
+        checks.require((1..=Film::MOST_PIXELS).contains(&pixels), key, || {
+            format!("found {pixels}, expected 1 to {} pixels", Film::MOST_PIXELS)
+        });
     }
     checks.within("exposure", film.exposure, -64.0, 64.0);
 }

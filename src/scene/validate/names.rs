@@ -1,9 +1,10 @@
 use crate::scene::Scene;
+use std::collections::BTreeSet;
 
 /// The names that a scene can refer to.
 pub(super) struct Names<'a> {
-    pub(super) textures: Vec<&'a str>,
-    pub(super) materials: Vec<&'a str>,
+    pub(super) textures: BTreeSet<&'a str>,
+    pub(super) materials: BTreeSet<&'a str>,
 }
 
 impl<'a> Names<'a> {

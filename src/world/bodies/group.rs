@@ -1,6 +1,6 @@
 use super::Body;
 use crate::geometry::Primitive;
-use crate::scene::{BodyKey, MaterialModel, Object, Scene};
+use crate::scene::{BodyKey, Material, MaterialModel, Object, Scene};
 use crate::world::Surface;
 
 /// A body with its key and priority.
@@ -17,8 +17,9 @@ struct Group<'s> {
 pub(in crate::world) fn bodies(scene: &Scene, primitives: &[Primitive], surfaces: &mut [Surface]) -> Vec<Body> {
     let mut groups = Vec::new();
     for (index, surface) in (0..).zip(surfaces.iter()) {
-        if let Surface::Object { object, .. } = surface {
-            add(scene, &scene.objects[*object as usize], index, &primitives[index as usize], &mut groups);
+        if let Surface::Object { object, material, .. } = surface {
+            let (object, material) = (&scene.objects[*object as usize], &scene.materials[*material as usize]);
+            add(object, material, index, &primitives[index as usize], &mut groups);
         }
     }
     for group in &mut groups {
@@ -42,8 +43,7 @@ pub(in crate::world) fn bodies(scene: &Scene, primitives: &[Primitive], surfaces
 }
 
 /// Adds a primitive to its group, if it is of glass.
-fn add<'s>(scene: &'s Scene, object: &'s Object, index: u32, primitive: &Primitive, groups: &mut Vec<Group<'s>>) {
-    let Some(material) = scene.materials.iter().find(|material| material.name == object.material) else { return };
+fn add<'s>(object: &'s Object, material: &Material, index: u32, primitive: &Primitive, groups: &mut Vec<Group<'s>>) {
     let MaterialModel::Glass { ior, absorption, priority, .. } = material.model else { return };
     let key = object.body_key();
     let found = groups.iter().position(|group| group.key == key);

@@ -1,15 +1,18 @@
 //! The file of a suite.
 
 use crate::cli::{CliError, args::ComponentName};
+use crate::file::read_text_limited;
 use serde::Deserialize;
 use std::{
-    fs,
     num::NonZeroU64,
     path::{Path, PathBuf},
 };
 
 /// The rendering time of a reference, relative to the last mark: it then has a quarter of the noise.
 const REFERENCE_FACTOR: f64 = 16.0;
+
+/// Most bytes of the file: some hundred thousand runs.
+const MAX_BYTES: u64 = 16 << 20;
 
 /// The contents of the file.
 #[derive(Debug, Deserialize)]
@@ -96,7 +99,7 @@ fn one() -> NonZeroU64 {
 /// The runs of a suite.
 pub(super) fn read(path: &Path) -> Result<Vec<Entry>, CliError> {
     let wrong = |message: &str| CliError::Usage(format!("{}: {message}", path.display()));
-    let text = fs::read_to_string(path).map_err(|e| wrong(&format!("cannot be read: {e}")))?;
+    let text = read_text_limited(path, MAX_BYTES).map_err(|e| wrong(&format!("cannot be read: {e}")))?;
     parse(&text).map_err(|message| wrong(&message))
 }
 
