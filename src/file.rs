@@ -4,6 +4,7 @@ use std::{
     fs::{self, File},
     io::{self, Read, Write},
     path::{Path, PathBuf},
+    time::Duration,
 };
 use tempfile::Builder;
 
@@ -37,6 +38,11 @@ pub fn read_text_limited(path: &Path, limit: u64) -> io::Result<String> {
     String::from_utf8(read_limited(path, limit)?).map_err(|e| io::Error::other(e.utf8_error()))
 }
 
+/// How the names of temporary files begin.
+const TEMPORARY: &str = ".patchlight-";
+/// Age of a temporary file at which the process that made it surely holds its lock.
+const TIME_TO_LOCK: Duration = Duration::from_secs(1);
+
 /// Writes `bytes` to the file at `path`, whole or not at all: to a temporary file beside it, which is then renamed. Writes
 /// directly to pipes and devices.
 ///
@@ -50,8 +56,12 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
         return fs::write(&target, bytes);
     }
+    let folder = folder(&target);
+    remove_left_over(&folder);
     // With a creator of our own, because the default one puts the temporary name into errors.
-    let temporary = Builder::new().prefix(".patchlight-").make_in(folder(&target), |path| File::create_new(path))?;
+    let temporary = Builder::new().prefix(TEMPORARY).make_in(folder, |path| File::create_new(path))?;
+    // Where the file system has no locks, other processes cannot take the lock either and leave the file alone.
+    temporary.as_file().try_lock().ok();
     temporary.as_file().write_all(bytes)?;
     if let Some(before) = before.filter(fs::Metadata::is_file) {
         temporary.as_file().set_permissions(before.permissions())?;
@@ -59,6 +69,21 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     temporary.as_file().sync_all()?;
     temporary.persist(&target).map_err(|e| e.error)?;
     Ok(())
+}
+
+/// Removes the temporary files that processes left in a folder when they were killed. A process that still writes holds the lock of its
+/// file.
+fn remove_left_over(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    let names_temporary = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().starts_with(TEMPORARY);
+    for entry in entries.flatten().filter(names_temporary) {
+        let age = entry.metadata().and_then(|m| m.modified()).ok().and_then(|at| at.elapsed().ok());
+        let is_old = age.is_some_and(|age| age > TIME_TO_LOCK);
+        if is_old && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok()) {
+            // What cannot be removed stays.
+            fs::remove_file(entry.path()).ok();
+        }
+    }
 }
 
 /// The folder of the file at `path`.
@@ -82,6 +107,24 @@ mod tests {
         write_whole(&folder_in_the_way, b"three").unwrap_err();
         write_whole(&dir.path().join("no such folder/b.txt"), b"four").unwrap_err();
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 2, "nothing is left behind");
+    }
+
+    #[test]
+    fn files_of_killed_processes_are_removed() {
+        let dir = tempfile::tempdir().unwrap();
+        let make = |name: &str, age: u64| {
+            let path = dir.path().join(name);
+            let file = File::create(&path).unwrap();
+            file.set_modified(std::time::SystemTime::now() - Duration::from_secs(age)).unwrap();
+            (path, file)
+        };
+        let (left_over, _) = make(".patchlight-dead", 9);
+        let (in_use, holder) = make(".patchlight-alive", 9);
+        holder.lock().unwrap();
+        let (new, _) = make(".patchlight-new", 0);
+        let (other, _) = make("patchlight-picture", 9);
+        write_whole(&dir.path().join("a"), b"a").unwrap();
+        assert!(!left_over.exists() && in_use.exists() && new.exists() && other.exists());
     }
 
     #[test]

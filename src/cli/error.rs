@@ -16,6 +16,14 @@ pub enum CliError {
     /// The scene cannot be rendered.
     #[error(transparent)]
     Session(#[from] SessionError),
+    /// A signal ended the rendering; the picture so far was written.
+    #[error("{message}")]
+    Interrupted {
+        /// How far the rendering came.
+        message: String,
+        /// The exit code that shells expect after the signal.
+        code: u8,
+    },
     /// A failure while running.
     #[error("{0}")]
     Failed(String),
@@ -31,9 +39,10 @@ impl CliError {
     }
 
     /// The exit code of the program: 1 for a failure while running, 2 for an error in the command line, in the scene or in an
-    /// image that it names.
+    /// image that it names; after a signal 128 and its number.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Interrupted { code, .. } => *code,
             Self::Scene(SceneError::Write { .. }) | Self::Image(ImageError::Write { .. }) => 1,
             Self::Usage(_) | Self::Scene(_) | Self::Image(_) | Self::Session(SessionError::Prepare(_)) => 2,
             Self::Session(SessionError::Threads(_) | SessionError::Memory { .. })

@@ -5,6 +5,7 @@
 //! | `args` | [`Arguments`] and the texts of `--help` |
 //! | `error` | [`CliError`] and the exit codes |
 //! | `words` | plurals |
+//! | `interrupt` | signals that ask the program to end |
 //! | `output` | writes the files of the commands |
 //! | `rendering` | the thread pool, timed iterations |
 //! | `progress`, `statistics` | the progress bar and `--stats` of `render` |
@@ -16,6 +17,7 @@ mod bench;
 mod check;
 mod error;
 mod export;
+mod interrupt;
 mod intersect;
 mod output;
 mod progress;

@@ -1,21 +1,23 @@
 use super::{
     CliError,
     args::{Budget, RenderArguments, RenderSettings},
+    interrupt::Interrupt,
     output::{needs_folder, write},
     progress::Progress,
-    rendering::{advance, pool},
+    rendering::{advance, advance_unless, pool},
     statistics::Statistics,
     words::counted,
 };
 use crate::{
     engine::{Frame, Session},
+    file::folder,
     film::{ToneMap, write_exr, write_png},
     scene::SceneFile,
     transport::Component,
 };
 use cpu_time::ProcessTime;
 use std::{
-    io::{Write, stderr},
+    io::{self, Write, stderr},
     path::Path,
 };
 
@@ -23,27 +25,71 @@ use std::{
 pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
     let format = Format::of(&arguments.output)?;
     needs_folder(&arguments.output)?;
+    needs_own_files(arguments)?;
     arguments.stats.as_deref().map_or(Ok(()), needs_folder)?;
     let file = sized(SceneFile::find(&arguments.scene)?, &arguments.settings);
     let pool = pool(arguments.settings.threads)?;
-    let (frame, cpu_seconds) = pool.install(|| render_frame(&file, arguments))?;
+    let interrupt = Interrupt::watch()?;
+    let (frame, cpu_seconds) = pool.install(|| render_frame(&file, arguments, &interrupt))?;
     format.write(&arguments.output, &frame, &file)?;
     if let Some(path) = &arguments.stats {
         let statistics = Statistics::new(&frame, cpu_seconds, pool.current_num_threads());
         write(path, statistics.json()?.as_bytes())?;
     }
-    report(&frame, &arguments.output)
+    match interrupt.signal() {
+        Some((signal, code)) => {
+            let iterations = counted(frame.stats.iterations, "iteration");
+            let message = format!("{}: {iterations}, ended early by {signal}", arguments.output.display());
+            Err(CliError::Interrupted { message, code })
+        }
+        None => {
+            // The picture is written: a message that nobody can read is no failure.
+            report(&frame, &arguments.output).ok();
+            Ok(())
+        }
+    }
 }
 
-fn render_frame(file: &SceneFile, arguments: &RenderArguments) -> Result<(Frame, f64), CliError> {
+/// Fails before the rendering if the picture or the statistics would overwrite the scene or each other.
+fn needs_own_files(arguments: &RenderArguments) -> Result<(), CliError> {
+    let RenderArguments { scene, output, stats, .. } = arguments;
+    for written in [Some(output), stats.as_ref()].into_iter().flatten() {
+        if is_same_file(written, scene) {
+            return Err(CliError::Usage(format!("{}: is the scene, which would be lost", written.display())));
+        }
+    }
+    match stats {
+        Some(stats) if is_same_file(stats, output) => {
+            let file = stats.display();
+            Err(CliError::Usage(format!("{file}: is both the picture and the statistics, expected two files")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether two paths lead to one file, which need not exist.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    let resolved = |path: &Path| {
+        path.canonicalize()
+            .or_else(|_| folder(path).canonicalize().map(|at| at.join(path.file_name().unwrap_or_default())))
+    };
+    matches!((resolved(a), resolved(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// The picture when the budget is spent, or after a signal; the seconds of processor time. The picture has at least one iteration.
+fn render_frame(
+    file: &SceneFile,
+    arguments: &RenderArguments,
+    interrupt: &Interrupt,
+) -> Result<(Frame, f64), CliError> {
     let RenderSettings { seed, only, .. } = arguments.settings;
     let mut session = Session::prepare(file, seed, None)?.only(only.map(Component::from));
     let progress = Progress::new(arguments.budget);
     let start = ProcessTime::now();
     let mut last = advance(&mut session);
-    while !is_spent(&arguments.budget, &session, last) {
+    while !is_spent(&arguments.budget, &session, last) && !interrupt.has_come() {
         progress.show(&session.stats());
-        last = advance(&mut session);
+        last = advance_unless(&mut session, &|| interrupt.has_come());
     }
     let cpu_seconds = start.elapsed().as_secs_f64();
     Ok((session.frame(0), cpu_seconds))
@@ -97,7 +143,7 @@ fn sized(mut file: SceneFile, settings: &RenderSettings) -> SceneFile {
     file
 }
 
-fn report(frame: &Frame, output: &Path) -> Result<(), CliError> {
+fn report(frame: &Frame, output: &Path) -> io::Result<()> {
     let stats = &frame.stats;
     let mut err = stderr().lock();
     let iterations = counted(stats.iterations, "iteration");

@@ -16,9 +16,13 @@ pub(super) fn pool(threads: Option<u16>) -> Result<ThreadPool, CliError> {
 
 /// Renders one iteration and returns the seconds that it took.
 pub(super) fn advance(session: &mut Session) -> f64 {
+    advance_unless(session, &|| false)
+}
+
+/// As [`advance`], but gives the iteration up when told so.
+pub(super) fn advance_unless(session: &mut Session, is_cancelled: &(impl Fn() -> bool + Sync)) -> f64 {
     let before = session.seconds();
-    // Never cancelled, so that there always is a result.
-    session.advance(Cancel::NEVER);
+    session.advance(Cancel::when(is_cancelled));
     session.seconds() - before
 }
 

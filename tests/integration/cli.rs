@@ -9,7 +9,8 @@ use patchlight::{
 use std::{
     fs,
     path::Path,
-    process::{Command, Output},
+    process::{Command, Output, Stdio},
+    time::Duration,
 };
 use tempfile::TempDir;
 
@@ -134,6 +135,29 @@ fn a_black_scene_ends_by_error_too() {
     assert!(run.status.success(), "{}", stderr(&run));
 }
 
+/// The picture so far is written, and the exit code is the one that shells expect.
+#[cfg(unix)]
+#[test]
+fn signals_end_a_rendering_with_its_picture() {
+    let dir = folder();
+    for (signal, code) in [("INT", 130), ("TERM", 143)] {
+        let output = format!("{signal}.exr");
+        let run = Command::new(env!("CARGO_BIN_EXE_patchlight"))
+            .args(["render", "ball.toml", "-o", &output, "--seconds", "60", "--size", "64x64", "--threads", "1"])
+            .current_dir(dir.path())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_secs(1));
+        let kill = Command::new("kill").args(["-s", signal, &run.id().to_string()]).status().unwrap();
+        assert!(kill.success());
+        let ended = run.wait_with_output().unwrap();
+        fails(&ended, code, &[&output, "iteration", "ended early by SIG"]);
+        let picture = patchlight::film::read_exr(&dir.path().join(&output)).unwrap();
+        assert!(picture.pixels.iter().any(|p| p.x > 0.0), "the ball is there");
+    }
+}
+
 #[test]
 fn a_file_of_control_points_is_shown_as_a_scene() {
     let dir = folder();
@@ -150,6 +174,19 @@ fn a_file_of_control_points_is_shown_as_a_scene() {
     fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt: line 3: the file ends"]);
     fs::write(dir.path().join("sheet.bpt"), "0\n").unwrap();
     assert!(patchlight(dir.path(), &["check", "sheet.bpt"]).status.success(), "no patch is no error");
+}
+
+#[test]
+fn no_output_overwrites_the_scene_or_another_output() {
+    let dir = folder();
+    fs::write(dir.path().join("scene.png"), SCENE).unwrap();
+    let render = |scene: &str, more: &[&str]| {
+        patchlight(dir.path(), &[&["render", scene, "--iterations", "1", "--size", "8x8"], more].concat())
+    };
+    fails(&render("scene.png", &["-o", "./scene.png"]), 2, &["scene.png: is the scene"]);
+    fails(&render("ball.toml", &["-o", "a.png", "--stats", "ball.toml"]), 2, &["ball.toml: is the scene"]);
+    fails(&render("ball.toml", &["-o", "a.png", "--stats", "./a.png"]), 2, &["both the picture and the statistics"]);
+    assert_eq!(fs::read_to_string(dir.path().join("scene.png")).unwrap(), SCENE, "the scene is still there");
 }
 
 #[test]
