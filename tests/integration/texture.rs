@@ -1,10 +1,11 @@
 //! Textures and relief maps finer than pixels.
 
-use crate::support::advanced;
+use crate::support::{advanced, assert_near, mean, render};
 use patchlight::engine::Session;
 use patchlight::film::LinearImage;
 use patchlight::scene::SceneFile;
 use patchlight::transport::Component;
+use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 /// A floor seen from above beside a bright wall, with 24 x 24 tiles: white halves that look at the wall, grey ones that look away.
@@ -96,4 +97,41 @@ fn coarse_pixels_average_the_texture_and_the_relief_that_they_cover() {
     let noise = (squares / 256.0).sqrt();
     // 0.061; one point of the texture for each pixel in an iteration leaves 0.105.
     assert!(noise < 0.08, "{noise} in a pixel");
+}
+
+/// Fraction of the albedo that a diffuse surface reflects of uniform light, where its shading normal has this cosine to its normal: the
+/// mean of the ratio of cosines, which the renderer clamps to 8. Without the clamp it is `(1 + cos) / 2`.
+fn reflected_fraction(cos: f64) -> f64 {
+    let sin = (1.0 - cos * cos).sqrt();
+    let n = 512;
+    let ratio = |k: u32| {
+        let (sin2, angle) = ((f64::from(k / n) + 0.5) / f64::from(n), (f64::from(k % n) + 0.5) / f64::from(n) * TAU);
+        (cos + sin * angle.cos() * (sin2 / (1.0 - sin2)).sqrt()).clamp(0.0, 8.0)
+    };
+    (0..n * n).map(ratio).sum::<f64>() / f64::from(n * n)
+}
+
+/// A closed sphere with a lamp in its middle, whose shading normal has the same angle to the normal everywhere. Diffuse reflection of
+/// direct light has the radiance `rho cos / pi`, equal to all sides, so all light between walls is uniform and the radiance is
+/// `rho cos / pi / (1 - rho fraction)`, if photons scatter by the function that camera paths evaluate.
+#[test]
+fn relief_reflects_photons_as_it_does_direct_light() {
+    let folder = tempfile::tempdir().unwrap();
+    let normal = folder.path().join("tilted.png");
+    // The normal (0.6, 0, 0.8): its cosine is 0.801 after rounding to eight bits.
+    image::RgbImage::from_pixel(4, 4, image::Rgb([204, 128, 230])).save(&normal).unwrap();
+    let (albedo, cos) = (0.8, 0.801);
+    let text = format!(
+        "[camera]\nposition = [0.1, 0.0, 0.2]\ntarget = [1.0, 0.3, 0.0]\nfov_y = 90.0\n[film]\nwidth = 24\nheight = 24
+        [render]\nmax_bounces = 64
+        [[texture]]\nname = \"tilt\"\nfile = {normal:?}
+        [[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [{albedo}, {albedo}, {albedo}]
+        normal_map = {{ texture = \"tilt\" }}
+        [[object]]\nname = \"s\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 1.0\nmaterial = \"m\"
+        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 0, 0]\nintensity = [1, 1, 1]\n"
+    );
+    let expected = albedo * cos / PI / (1.0 - albedo * reflected_fraction(cos));
+    // Photons that scatter only before the shading normal leave 0.57 of it. 16 iterations of 16,384 paths, whose flux grows up to 8 times
+    // at a grazing angle: a standard error of 0.9 %; 1024 iterations come as near as 0.01 %.
+    assert_near(mean(&render(&text, 16)), expected, 0.04, "radiance");
 }

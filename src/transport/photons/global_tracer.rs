@@ -180,8 +180,8 @@ fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut 
         path.flux *= scattering.albedo / diffuse as f32;
         path.was_scattered = true;
         path.bounces += 1;
-        let direction = OrthonormalBasis::from_normal(n_shade).world_from_local(warp::cosine_hemisphere(u));
-        let factor = bsdf::shading_factor(wi, direction, n_side, n_shade);
+        let direction = OrthonormalBasis::from_normal(n_side).world_from_local(warp::cosine_hemisphere(u));
+        let factor = bsdf::diffuse_shading_factor(wi, n_side, n_shade);
         path.flux *= factor as f32;
         return (factor > 0.0).then_some(direction);
     }

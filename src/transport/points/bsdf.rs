@@ -162,6 +162,17 @@ pub(in crate::transport) fn shading_factor(wi: DVec3, wo: DVec3, n_side: DVec3, 
     (i_shade * o_geom / (i_geom * o_shade)).min(MAX_SHADING_FACTOR)
 }
 
+/// [`shading_factor`] for diffuse reflection into a direction that is sampled by its cosine to the geometric normal: `|cos_i'| / |cos_i|`,
+/// for all directions on the geometric side, because camera paths see diffuse light from all of them.
+#[inline]
+pub(in crate::transport) fn diffuse_shading_factor(wi: DVec3, n_side: DVec3, n_shade: DVec3) -> f64 {
+    if n_side == n_shade {
+        return 1.0;
+    }
+    let (i_geom, i_shade) = (wi.dot(n_side), wi.dot(n_shade));
+    if i_geom > 0.0 && i_shade > 0.0 { (i_shade / i_geom).min(MAX_SHADING_FACTOR) } else { 0.0 }
+}
+
 /// Whether a surface scatters light diffusely or in a Phong lobe, besides mirrors and glass.
 #[inline]
 pub(in crate::transport) fn scatters(scattering: &Scattering) -> bool {
