@@ -59,10 +59,10 @@ pub struct Stats {
     pub counters: Counters,
 }
 
-/// Light that may be missing, because too few photons have sampled an item. `Display` says so in words.
+/// Light that may be missing, because too few paths have sampled an item. `Display` says so in words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MissingLight {
-    /// Caustics or interreflection.
+    /// Direct light of a beam, caustics or interreflection.
     pub item: PlanItem,
     /// The most light that may be missing, over the mean of the picture; `None` while the picture is black.
     pub fraction: Option<f64>,
@@ -70,7 +70,8 @@ pub struct MissingLight {
 
 impl fmt::Display for MissingLight {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "too few photons for {} so far", self.item)?;
+        let paths = if self.item == PlanItem::DirectLight { "camera samples" } else { "photons" };
+        write!(f, "too few {paths} for {} so far", self.item)?;
         match self.fraction {
             Some(fraction) if fraction < 1.0 => {
                 write!(f, ": up to {:.2} % of the light may be missing", 100.0 * fraction)

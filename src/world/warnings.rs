@@ -41,7 +41,8 @@ pub fn warnings(scene: &Scene, world: &World) -> Vec<Warning> {
     }
     for named in scene.lights.iter().filter(|named| light(named).power() != Rgb::ZERO) {
         let (center, subject) = (light(named).center(), format!("light \"{}\"", named.name));
-        if let Some(body) = world.body(&world.media_around(center)) {
+        // A cavity of the index of air makes a hollow bulb.
+        if let Some(body) = world.body(&world.media_around(center)).filter(|body| !body.is_air()) {
             let fault =
                 format!("is inside of the glass \"{}\": all of its light comes out through the glass", body.name);
             warnings.push(Warning::new(subject.clone(), fault, "move it out, unless that is meant"));

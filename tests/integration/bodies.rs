@@ -235,3 +235,28 @@ fn water_that_walls_close_has_no_gaps() {
         box_of("basin", [[-1.0, -1.0, -1.0], [1.0, 0.0, 1.0]], |face| if face == "top" { "water" } else { "white" });
     assert_eq!(faults(&format!("{head}{white}{basin}")), Vec::<String>::new());
 }
+
+/// A lamp just above water, nearer than rays resolve: its light is direct light or a caustic, not both.
+#[test]
+fn a_lamp_at_a_surface_counts_once() {
+    let camera = "[camera]\nposition = [0, -0.6, 0.01]\ntarget = [0, -1, 0]\nfov_y = 10\n[film]\nwidth = 8\nheight = 8
+        [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
+        [[material]]\nname = \"water\"\ntype = \"glass\"\nior = 1.33\n";
+    let plane = |name: &str, y: f64, material: &str| {
+        object(name, "plane", material, &format!("point = [0, {y}, 0]\nnormal = [0, 1, 0]"))
+    };
+    for height in [1e-8, 1e-9, 1e-10, 0.0, -1e-9, -1e-8f64] {
+        let lamp = format!(
+            "[[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0.2, {height:?}, 0]\nintensity = [1, 1, 1]\n"
+        );
+        let text = [camera, &plane("floor", -1.0, "grey"), &plane("surface", 0.0, "water"), &lamp].concat();
+        let of = |component| {
+            let session = Session::prepare(&scene(&text), 1, None).expect("the scene can be prepared");
+            mean(&advanced(session.only(Some(component)), 8).film().image())
+        };
+        let (direct, caustic) = (of(Component::Direct), of(Component::Caustics));
+        assert!((direct > 0.1) != (caustic > 0.1), "from {height}: direct {direct}, caustic {caustic}");
+        // From below, some hundredths return from the surface as a caustic.
+        assert!(direct.min(caustic) < 0.01, "from {height}: direct {direct}, caustic {caustic}");
+    }
+}

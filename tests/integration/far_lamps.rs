@@ -3,6 +3,7 @@
 use crate::support::{advanced, assert_near, mean, object, quad, scene, sphere};
 use patchlight::engine::Session;
 use patchlight::transport::Component;
+use std::f64::consts::PI;
 
 /// The mean of one component of the picture of two walls and a glass ball on the ground, lit from this distance with the same irradiance.
 fn lit_from(distance: f64, ground: &str, component: Component) -> f64 {
@@ -16,7 +17,7 @@ fn lit_from(distance: f64, ground: &str, component: Component) -> f64 {
     let wall = quad("wall", [[-1.0, 0.0, -1.0], [2.0, 0.0, 0.0], [0.0, 1.5, 0.0]], "white");
     let text = [head, &lamp, ground, &wall, &sphere("ball", [0.0, 0.4, 0.0], 0.3, "g")].concat();
     let session = Session::prepare(&scene(&text), 1, None).expect("the scene can be prepared");
-    mean(&advanced(session.only(Some(component)), 8).film().image())
+    mean(&advanced(session.only(Some(component)), 24).film().image())
 }
 
 #[test]
@@ -25,7 +26,8 @@ fn the_distance_of_a_lamp_does_not_matter() {
     let plane = object("ground", "plane", "white", "point = [0, 0, 0]\nnormal = [0, 1, 0]");
     // Too large to get a share of the photons.
     let in_a_sphere = square.clone() + &sphere("around", [0.0; 3], 1e9, "white");
-    for ground in [square, plane, in_a_sphere] {
+    let wide = quad("ground", [[-1e4, 0.0, 1e4], [2e4, 0.0, 0.0], [0.0, 0.0, -2e4]], "white");
+    for ground in [square, plane, in_a_sphere, wide] {
         for component in [Component::Caustics, Component::Interreflection] {
             let near = lit_from(40.0, &ground, component);
             assert!(near > 1e-3, "{component:?}: {near}");
@@ -34,6 +36,31 @@ fn the_distance_of_a_lamp_does_not_matter() {
                 assert_near(lit_from(distance, &ground, component), near, 0.06, &format!("{component:?}, {ground}"));
             }
         }
+    }
+}
+
+/// A lamp of radius 0.02 above a ball of 0.01: most rays from the lamp into the cone of both would miss the ball.
+#[test]
+fn a_ball_smaller_than_the_lamp_has_a_caustic() {
+    let caustic = |lamp: &str| {
+        let head =
+            "[camera]\nposition = [0, 0.08, 0.12]\ntarget = [0, 0.01, 0]\nfov_y = 35\n[film]\nwidth = 32\nheight = 32
+            [[material]]\nname = \"white\"\ntype = \"diffuse\"\nalbedo = [0.7, 0.7, 0.7]
+            [[material]]\nname = \"g\"\ntype = \"glass\"\nior = 1.5\n";
+        let ground = quad("ground", [[-2.0, 0.0, 2.0], [4.0, 0.0, 0.0], [0.0, 0.0, -4.0]], "white");
+        let text = [head, lamp, &ground, &sphere("ball", [0.0, 0.02, 0.0], 0.01, "g")].concat();
+        let session = Session::prepare(&scene(&text), 1, None).expect("the scene can be prepared");
+        mean(&advanced(session.only(Some(Component::Caustics)), 48).film().image())
+    };
+    let point = caustic("[[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0.3, 3, 0]\nintensity = [9, 9, 9]\n");
+    for radius in [0.02, 0.05f64] {
+        let radiance = 9.0 / (PI * radius * radius);
+        let sphere = caustic(&format!(
+            "[[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0.3, 3, 0]\nradius = {radius}
+            radiance = [{radiance}, {radiance}, {radiance}]\n"
+        ));
+        // One path of ten to thirty meets the ball, which leaves a few hundredths of noise.
+        assert_near(sphere, point, 0.1, &format!("a lamp of radius {radius}"));
     }
 }
 

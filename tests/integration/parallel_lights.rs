@@ -126,6 +126,34 @@ fn a_sun_is_a_far_lamp() {
 }
 
 #[test]
+fn far_objects_take_no_light_of_a_sun_away() {
+    let things = [
+        quad("floor", [[-2.0, 0.0, 2.0], [4.0, 0.0, 0.0], [0.0, 0.0, -4.0]], "grey"),
+        quad("wall", [[-2.0, 0.0, -1.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], "grey"),
+    ];
+    let light = sun([-0.3, -1.0, -0.4], PI, 0.0);
+    let lit = |far: &str| {
+        mean(&only(&[&above(4.0, 40.0), &things.concat(), &light, far].concat(), Component::Interreflection, 16))
+    };
+    let alone = lit("");
+    assert!(alone > 0.01, "{alone}");
+    for (distance, material) in [(1e3, "grey"), (1e6, "glass"), (1e6, "mirror")] {
+        let far = sphere("far", [distance, 0.0, distance], 0.3 * distance, material);
+        assert_near(lit(&far), alone, 0.03, &format!("beside {material} at {distance}"));
+    }
+}
+
+/// No sample meets the beam: the picture is black, but not known to be.
+#[test]
+fn a_beam_narrower_than_a_pixel_is_not_converged() {
+    let text = [above(4.0, 90.0), ground(), beam([0.003, 3.0, 0.002], [0.0, -1.0, 0.0], 1e-4, 2.0)].concat();
+    let session = session(&text, 8);
+    assert!(!session.reaches(0.05));
+    let missing = session.stats().missing_light.expect("light is missing").to_string();
+    assert!(missing.contains("camera samples for direct light"), "{missing}");
+}
+
+#[test]
 fn a_beam_lights_its_disc_alone() {
     let text = [above(4.0, 90.0), ground(), beam([-1.0, 3.0, 0.0], [0.0, -1.0, 0.0], 0.5, 2.0)].concat();
     let image = render(&text, 16);

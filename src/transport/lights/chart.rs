@@ -91,8 +91,9 @@ pub(super) fn crossing_at(place: Place) -> DVec2 {
     place.truncate() / (0.5 * flat_side())
 }
 
-/// The places of paths to objects with surfaces to reach, from all points of the light; `None` for an object around the light.
-pub(super) fn cones_of_objects(world: &World, chart: &Chart, aim: &impl Aim) -> BTreeMap<u32, Option<Cone>> {
+/// For each object with surfaces to reach their box, and the places of paths to it from all points of the light; `None` for an object around
+/// the light.
+pub(super) fn cones_of_objects(world: &World, chart: &Chart, aim: &impl Aim) -> BTreeMap<u32, (Aabb, Option<Cone>)> {
     let mut bounds = BTreeMap::<u32, Aabb>::new();
     for (p, primitive) in (0..).zip(world.aggregate.primitives()) {
         if let Some(object) = world.object_of(p).filter(|_| aim(p)) {
@@ -102,5 +103,5 @@ pub(super) fn cones_of_objects(world: &World, chart: &Chart, aim: &impl Aim) -> 
             *of_object = of_object.union(&of_primitive);
         }
     }
-    bounds.iter().map(|(&object, b)| (object, chart.cone(b.center(), 0.5 * b.diagonal()))).collect()
+    bounds.iter().map(|(&object, b)| (object, (*b, chart.cone(b.center(), 0.5 * b.diagonal())))).collect()
 }

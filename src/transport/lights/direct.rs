@@ -1,6 +1,7 @@
 //! Direct light: next event estimation, with multiple importance sampling against the Phong lobe.
 
 use super::PhotonEmission;
+use super::emission;
 use super::light_sampler::LightSampler;
 use crate::geometry::Sphere;
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
@@ -39,8 +40,8 @@ struct LightSample {
 /// Least distance at which lights shine, in pixel footprints: so the light of a lamp on a surface stays finite. Of the samples of a pixel
 /// with a nearer lamp, one in some thousand would find most of its light.
 const NEAREST: f64 = 0.01;
-/// End of a shadow ray over the distance to the sampled point of a light: short of the light's own surface, which would hide the point.
-const SHADOW_RAY_END: f64 = 1.0 - 1e-9;
+/// Rounding of a shadow ray's end over its length: some roundings of `f64`.
+const END_ROUNDING: f64 = 1e-14;
 
 /// Distance that stands for that of a sun, scene units: beyond every scene, and a common factor of it is still finite in `f32`.
 const SUN_DISTANCE: f64 = 1e30;
@@ -57,13 +58,14 @@ pub(in crate::transport) struct SeenBy<'a> {
 }
 
 impl LightSample {
-    /// The ray from the surface point, moved off its surface, to the light.
+    /// The ray from the surface point, moved off its surface, to the light: it ends short of the light's own surface.
     #[inline]
-    fn shadow_ray(&self, from: DVec3) -> Ray {
+    fn shadow_ray(&self, from: DVec3, light: &Light) -> Ray {
         if self.distance >= SUN_DISTANCE {
             return Ray::new(from, self.wi);
         }
-        Ray { t_max: SHADOW_RAY_END, ..Ray::between(from, self.position) }
+        let short = emission::least_distance(light) / self.distance;
+        Ray { t_max: 1.0 - short.max(END_ROUNDING), ..Ray::between(from, self.position) }
     }
 }
 
@@ -114,7 +116,8 @@ impl DirectLight<'_> {
             return Rgb::ZERO;
         }
         counters.shadow_rays += 1;
-        if self.world.aggregate.occluded(&sample.shadow_ray(self.world.leave(&vertex.point, sample.wi))) {
+        let shadow_ray = sample.shadow_ray(self.world.leave(&vertex.point, sample.wi), &self.world.lights[light]);
+        if self.world.aggregate.occluded(&shadow_ray) {
             return Rgb::ZERO;
         }
         radiance * self.world.transmittance(seen_by.media, sample.distance)

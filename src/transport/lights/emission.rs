@@ -5,9 +5,16 @@ use crate::world::{Light, ParallelRays, World};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Least distance of a hit from the light where a ray begins, relative to the light's coordinates: rounding must not let the ray hit its
-/// own light.
+/// Least distance from a light at which rays meet surfaces, relative to the light's coordinates: rounding must not let a ray hit the light
+/// where it begins or ends.
 const LEAST_DISTANCE: f64 = 1e-9;
+
+/// Least distance from a light at which rays that leave it, and shadow rays to it, meet surfaces, scene units. It is the same for both, so
+/// that light crosses a nearer surface either as a photon and as direct light, or as neither.
+#[inline]
+pub(super) fn least_distance(light: &Light) -> f64 {
+    if matches!(light, Light::Parallel(_)) { 0.0 } else { LEAST_DISTANCE * light.magnitude() }
+}
 
 /// A ray that leaves a point of this light; the ray of a sun begins before every surface.
 #[inline]
@@ -15,7 +22,7 @@ pub(in crate::transport) fn ray_from_light(world: &World, light: &Light, origin:
     if let Light::Parallel(rays) = light {
         return Ray::new(rays.beginning(&world.aggregate, origin, direction), direction);
     }
-    Ray { t_min: LEAST_DISTANCE * light.magnitude(), ..Ray::new(origin, direction) }
+    Ray { t_min: least_distance(light), ..Ray::new(origin, direction) }
 }
 
 /// The first ray of a light path.

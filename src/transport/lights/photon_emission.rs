@@ -20,6 +20,13 @@ const WIDE: f64 = 100.0;
 /// The visible ground and its illumination lie mostly in it.
 const VIEW: f64 = 2.0;
 
+/// Radius of the view in a light's chart (radians where the chart is of directions) below which the light is far: half of the photons then
+/// aim at the view, whatever fills the rest of the chart. A light that is so far away would rarely meet the view otherwise.
+const SMALL_VIEW: f64 = 0.02;
+
+/// Area of the objects in the chart over the area of the view from which on most photons that aim at the objects miss the view.
+const SPREAD: f64 = 4.0;
+
 /// The first rays of a light's photon paths.
 #[derive(Clone, Debug)]
 pub enum PhotonEmission {
@@ -38,11 +45,20 @@ impl PhotonEmission {
     fn new(world: &World, light: &Light, light_index: u64) -> Self {
         let are_wide: Vec<bool> = world.aggregate.primitives().iter().map(|p| is_wide(world, light, p)).collect();
         let is_aim = |p: u32| !are_wide[p as usize];
-        let cones: Option<Vec<Cone>> = cones_of_objects(world, &Chart::new(light), &is_aim).into_values().collect();
-        let view = if are_wide.contains(&true) { view_cone(world, light).map(Some) } else { Some(None) };
-        let (Some(cones), Some(view)) = (cones, view) else { return Self::Everywhere };
-        let filled: f64 = cones.iter().chain(&view).map(Cone::fraction_of_chart).sum();
-        if filled == 0.0 || filled > FAR {
+        let cones: Option<Vec<Cone>> =
+            cones_of_objects(world, &Chart::new(light), &is_aim).into_values().map(|(_, cone)| cone).collect();
+        let (view, has_wide) = (view_cone(world, light), are_wide.contains(&true));
+        let filled = |cones: &[Cone]| cones.iter().map(Cone::fraction_of_chart).sum::<f64>();
+        let by_objects = cones.as_deref().map_or(1.0, filled);
+        if let Some(view) = view.filter(|view| view.radius < SMALL_VIEW)
+            && (has_wide || by_objects > SPREAD * view.fraction_of_chart())
+        {
+            return Self::Aimed(Box::new(ProjectionMap::build(world, light, light_index, Some(view), &is_aim)));
+        }
+        let has_cones = cones.is_some() && (view.is_some() || !has_wide);
+        let view = view.filter(|_| has_wide);
+        let filled = by_objects + view.as_ref().map_or(0.0, Cone::fraction_of_chart);
+        if !has_cones || filled == 0.0 || filled > FAR {
             return Self::Everywhere;
         }
         Self::Aimed(Box::new(ProjectionMap::build(world, light, light_index, view, &is_aim)))
@@ -77,7 +93,11 @@ impl PhotonEmission {
 
 /// Whether a primitive is so wide that photons do not aim at it as a whole.
 fn is_wide(world: &World, light: &Light, primitive: &Primitive) -> bool {
-    let distance = light.center().distance(world.view.center).max(world.view.distance);
+    let distance = match light {
+        // From a sun a small part of a wide object is in view, wherever the object is.
+        Light::Parallel(_) => world.view.distance,
+        _ => light.center().distance(world.view.center).max(world.view.distance),
+    };
     matches!(primitive, Primitive::Plane(_)) || 0.5 * primitive.bounds().diagonal() >= WIDE * distance
 }
 

@@ -6,7 +6,7 @@ use super::emission::{self, Emission, Origin};
 use super::light_sampler::MOST_SAMPLED;
 use super::small_targets::{Cell, CellTree, Place, PlaceFromSquare, Target, Targets};
 use crate::geometry::Primitive;
-use crate::math::{OrthonormalBasis, Ray, Sampler, Stream, warp};
+use crate::math::{Aabb, OrthonormalBasis, Ray, Sampler, Stream, warp};
 use crate::world::{Light, World};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -60,13 +60,14 @@ impl ProjectionMap {
         Self::build(world, light, light_index, None, &|p| world.is_specular(p))
     }
 
-    /// The projection map of a light, from probe rays into every cell and to each object that appears small, and of a cone of directions.
-    pub(super) fn build(world: &World, light: &Light, light_index: u64, cone: Option<Cone>, aim: &impl Aim) -> Self {
+    /// The projection map of a light, from probe rays into every cell and to each object that appears small, and of the cone of the
+    /// view.
+    pub(super) fn build(world: &World, light: &Light, light_index: u64, view: Option<Cone>, aim: &impl Aim) -> Self {
         let chart = Chart::new(light);
         let is_small_cone = |cone: &Cone| cone.radius < SMALL_OBJECT;
-        let small: BTreeMap<u32, Cone> = cones_of_objects(world, &chart, aim)
+        let small: BTreeMap<u32, (Aabb, Cone)> = cones_of_objects(world, &chart, aim)
             .into_iter()
-            .filter_map(|(object, cone)| Some((object, cone.filter(is_small_cone)?)))
+            .filter_map(|(object, (bounds, cone))| Some((object, (bounds, cone.filter(is_small_cone)?))))
             .collect();
         let is_small = |p: u32| world.object_of(p).is_some_and(|object| small.contains_key(&object));
         let marks = |p: u32| aim(p) && !is_small(p);
@@ -82,27 +83,26 @@ impl ProjectionMap {
         for cell in cells_of_small_primitives(world, &chart, &marks) {
             is_marked[cell] = true;
         }
-        if let Some(wide) = cone.filter(|cone| !is_small_cone(cone)) {
+        if let Some(wide) = view.filter(|cone| !is_small_cone(cone)) {
             (0..SIDE * SIDE)
                 .filter(|&cell| cell_at(cell).may_meet(&wide.target(), place))
                 .for_each(|cell| is_marked[cell] = true);
         }
-        let mut cones: Vec<Cone> = (0..)
+        let cones: Vec<Cone> = (0..)
             .zip(small)
-            .filter_map(|(k, (object, cone))| {
+            .filter_map(|(k, (object, (bounds, cone)))| {
                 let of_object = |p: u32| aim(p) && world.object_of(p) == Some(object);
-                probes.meet_in_cone(k, cone, &of_object).then_some(cone)
+                probes.meet_small(k, &bounds, cone, &of_object).then_some(cone)
             })
             .collect();
-        cones.extend(cone.filter(is_small_cone));
-        Self::from_cells(chart, &is_marked, &cones)
+        Self::from_cells(chart, &is_marked, &cones, view.filter(is_small_cone))
     }
 
-    fn from_cells(chart: Chart, is_marked: &[bool], cones: &[Cone]) -> Self {
+    fn from_cells(chart: Chart, is_marked: &[bool], cones: &[Cone], view: Option<Cone>) -> Self {
         let count = is_marked.iter().filter(|&&is| is).count();
         let total = (SIDE * SIDE) as f64;
         let marked_area = count as f64 / total;
-        let (targets, areas) = targets(cones, marked_area, chart.place_from_square());
+        let (targets, areas) = targets(cones, view, marked_area, chart.place_from_square());
         let of_targets: f64 = targets.list.iter().map(|target| target.path_fraction).sum();
         let rest = 1.0 - DEFENSIVE_FRACTION - of_targets;
         let probability = |cell: usize| {
@@ -133,7 +133,12 @@ impl ProjectionMap {
         }
         let all = rows[SIDE];
         rows.iter_mut().for_each(|x| *x /= all);
-        Self { chart, rows, cells, trees, covered: marked_area + areas.iter().sum::<f64>() }
+        let covered = match (view, targets.list.last(), areas.last()) {
+            // As if all paths went to the view: the others bring little light there.
+            (Some(_), Some(target), Some(area)) => area / target.path_fraction,
+            _ => marked_area + areas.iter().sum::<f64>(),
+        };
+        Self { chart, rows, cells, trees, covered }
     }
 
     /// Samples a point of the unit square; returns it with its density. Monotonic in both numbers, so that stratified numbers give
@@ -248,19 +253,21 @@ impl Probes<'_> {
         self.meet(&start, self.chart.place_from_square()((corner + within) / SIDE as f64), is_aim)
     }
 
-    /// Whether any of some rays in a cone meets such a surface first.
-    fn meet_in_cone(&self, cone_index: u64, cone: Cone, is_aim: &impl Aim) -> bool {
+    /// Whether any of some rays to a box, which appears in a cone, meets such a surface first. From each point of a lamp the rays aim at the
+    /// box as seen from there: a lamp larger than the box would miss it with most rays of the cone.
+    fn meet_small(&self, box_index: u64, bounds: &Aabb, cone: Cone, is_aim: &impl Aim) -> bool {
         (0..RAYS_TO_SMALL_OBJECT).any(|k| {
             let index =
-                (SIDE * SIDE) as u64 * PROBES_ALONG_SIDE * PROBES_ALONG_SIDE + cone_index * RAYS_TO_SMALL_OBJECT + k;
+                (SIDE * SIDE) as u64 * PROBES_ALONG_SIDE * PROBES_ALONG_SIDE + box_index * RAYS_TO_SMALL_OBJECT + k;
             let mut sampler = Sampler::new(0, Stream::Probe, self.light_index, index);
             let start = self.start(&mut sampler);
             let u = sampler.next_2d();
-            let place = match start {
-                Start::Origin(_) => {
+            let place = match &start {
+                Start::Origin(origin) => {
+                    let seen = Cone::around(bounds.center() - origin.position, 0.5 * bounds.diagonal()).unwrap_or(cone);
                     // 1 - cos of the angle.
-                    let height = 2.0 * (0.5 * cone.radius).sin().powi(2);
-                    OrthonormalBasis::from_normal(cone.middle).world_from_local(warp::uniform_cone(u, height))
+                    let height = 2.0 * (0.5 * seen.radius).sin().powi(2);
+                    OrthonormalBasis::from_normal(seen.middle).world_from_local(warp::uniform_cone(u, height))
                 }
                 Start::Direction(_) => cone.middle + (cone.radius * warp::concentric_disc(u)).extend(0.0),
             };
@@ -319,16 +326,25 @@ fn cells_of_small_primitives(world: &World, chart: &Chart, is_aim: &impl Aim) ->
     cells
 }
 
-/// The targets of the cones beside cells that cover this area of the unit square, and the areas that the targets cover. Each gets a
-/// fraction of the paths in proportion to its area, but not less than [`LEAST_FRACTION`].
-fn targets(cones: &[Cone], marked_area: f64, place_from_square: PlaceFromSquare) -> (Targets, Vec<f64>) {
-    let list: Vec<Target> = cones.iter().map(Cone::target).collect();
+/// The targets of the cones, and of the view as the last one, beside cells that cover this area of the unit square, and the areas that the
+/// targets cover. Each gets a fraction of the paths in proportion to its area, but not less than [`LEAST_FRACTION`], the view as much as
+/// all cells and cones together.
+fn targets(
+    cones: &[Cone],
+    view: Option<Cone>,
+    marked_area: f64,
+    place_from_square: PlaceFromSquare,
+) -> (Targets, Vec<f64>) {
+    let list: Vec<Target> = cones.iter().chain(&view).map(Cone::target).collect();
     let mut targets = Targets { list, place_from_square };
     let areas = targets.covered_areas();
     let least = LEAST_FRACTION.min(LEAST_FRACTIONS / cones.len() as f64);
-    let total = marked_area + areas.iter().sum::<f64>();
-    let weights: Vec<f64> = areas.iter().map(|area| (area / total).max(least)).collect();
-    let sum = marked_area / total + weights.iter().sum::<f64>();
+    let of_cones = &areas[..cones.len()];
+    let total = marked_area + of_cones.iter().sum::<f64>();
+    let mut weights: Vec<f64> = of_cones.iter().map(|area| (area / total).max(least)).collect();
+    let sum = weights.iter().sum::<f64>() + if marked_area > 0.0 { marked_area / total } else { 0.0 };
+    weights.extend(view.map(|_| if sum > 0.0 { sum } else { 1.0 }));
+    let sum = sum + view.and(weights.last()).copied().unwrap_or(0.0);
     for (target, weight) in targets.list.iter_mut().zip(weights) {
         target.path_fraction = (1.0 - DEFENSIVE_FRACTION) * weight / sum;
     }
@@ -368,7 +384,7 @@ mod tests {
     fn samples_have_their_density() {
         let cells = some_cells();
         let marked = cells.iter().filter(|&&is| is).count() as f64;
-        let map = ProjectionMap::from_cells(Chart::new(&lamp()), &cells, &[]);
+        let map = ProjectionMap::from_cells(Chart::new(&lamp()), &cells, &[], None);
         assert_eq!(map.covered(), marked / 4096.0);
         // A third of a cell aside, so that bins also show where in the cells samples lie.
         let aside = DVec2::splat(1.0 / (3.0 * SIDE as f64));
@@ -392,7 +408,7 @@ mod tests {
     fn paths_from_a_lamp_have_the_density_that_mis_weights_take() {
         let chart = Chart::new(&lamp());
         let cone = |x: f64, y: f64, radius| Cone { middle: chart.place_from_square()(DVec2::new(x, y)), radius };
-        let map = ProjectionMap::from_cells(chart, &some_cells(), &[cone(0.3, 0.6, 0.3), cone(0.71, 0.24, 0.02)]);
+        let map = ProjectionMap::from_cells(chart, &some_cells(), &[cone(0.3, 0.6, 0.3)], Some(cone(0.71, 0.24, 0.02)));
         let sample = |sampler: &mut Sampler| {
             let Emission { origin, direction, flux } = map.emit(&lamp(), sampler)?;
             let expected = 1.0 / map.path_density(origin, origin + direction);
@@ -408,7 +424,7 @@ mod tests {
         let (rays, light) = (beam(), Light::Parallel(beam()));
         let chart = Chart::new(&light);
         let cone = Cone { middle: chart.place_from_square()(DVec2::new(0.4, 0.6)), radius: 0.2 };
-        let map = ProjectionMap::from_cells(chart, &some_cells(), &[cone]);
+        let map = ProjectionMap::from_cells(chart, &some_cells(), &[cone], None);
         let sample = |sampler: &mut Sampler| {
             let Emission { origin, direction, .. } = map.emit(&light, sampler)?;
             assert!(origin.distance(rays.center) <= 2.0 + 1e-9 && direction == rays.direction);
@@ -424,7 +440,7 @@ mod tests {
     #[test]
     fn densities_integrate_to_one_and_cover_everything() {
         let cells: Vec<bool> = (0..SIDE * SIDE).map(|cell| cell % 37 == 0).collect();
-        let map = ProjectionMap::from_cells(Chart::new(&lamp()), &cells, &[]);
+        let map = ProjectionMap::from_cells(Chart::new(&lamp()), &cells, &[], None);
         let n = 256;
         let mut reciprocal = 0.0;
         let mut mean = DVec3::ZERO;

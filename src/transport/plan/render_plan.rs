@@ -42,9 +42,11 @@ pub struct Plan {
     pub(super) samples: Option<Arc<SampleAllocation>>,
 }
 
-/// Mean radiance over the film that one photon path would bring after one full iteration, by component.
+/// Mean radiance over the film that one path would bring after one full iteration, by component.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RadianceOfPath {
+    /// Of a camera sample in the narrowest beam.
+    pub(super) direct: f64,
     pub(super) caustics: f64,
     pub(super) interreflection: f64,
 }

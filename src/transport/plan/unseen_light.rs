@@ -7,12 +7,14 @@
 use super::notes::PlanItem;
 use super::paths::power;
 use super::render_plan::{Plan, RadianceOfPath};
-use crate::world::{Surface, World};
+use crate::world::{Light, Surface, World};
 use glam::DVec2;
 use std::f64::consts::PI;
 
 /// Number of paths whose light may be missing although none of them was found.
 const RULE_OF_THREE: f64 = 3.0;
+/// Camera samples of a pixel in a full iteration before the first refinement.
+const SAMPLES_PER_PIXEL: f64 = 4.0;
 /// Rays along a side of the film that measure the surfaces in view. With fewer, chance would change the bound where objects are near and far;
 /// more would take time after each edit.
 const RAYS_ALONG_SIDE: u32 = 16;
@@ -20,7 +22,7 @@ const RAYS_ALONG_SIDE: u32 = 16;
 /// Light of a component that may be missing in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnseenLight {
-    /// Caustics or interreflection.
+    /// Direct light of a beam, caustics or interreflection.
     pub item: PlanItem,
     /// Mean over the film of the radiance that may be missing, W per steradian and square scene unit.
     pub radiance: f64,
@@ -39,18 +41,33 @@ impl Plan {
             brightest(&caustics.paths, &|light| caustics.projection_maps[light].aimed_fraction())
         });
         let interreflection = brightest(&self.global_paths, &|light| self.photon_emissions[light].aimed_fraction());
-        Self { radiance_of_path: RadianceOfPath { caustics, interreflection }, ..self }
+        let direct = per_watt * world.lights.iter().map(|light| flux_of_sample(world, light)).fold(0.0, f64::max);
+        Self { radiance_of_path: RadianceOfPath { direct, caustics, interreflection }, ..self }
     }
 
     /// The greatest light of a planned item that may be missing after iterations of this total size (full iterations, above 0); `None`
     /// for a plan without photons.
     pub fn unseen_light(&self, size: f64) -> Option<UnseenLight> {
-        let RadianceOfPath { caustics, interreflection } = self.radiance_of_path;
+        let RadianceOfPath { direct, caustics, interreflection } = self.radiance_of_path;
+        let direct = Some(direct).filter(|direct| self.finds_direct_light && *direct > 0.0);
         let unseen = |item, of_path: f64| UnseenLight { item, radiance: RULE_OF_THREE * of_path / size };
         let caustics = self.caustics.is_some().then(|| unseen(PlanItem::Caustics, caustics));
         let interreflection =
             (!self.global_paths.is_empty()).then(|| unseen(PlanItem::Interreflection, interreflection));
-        caustics.into_iter().chain(interreflection).max_by(|a, b| a.radiance.total_cmp(&b.radiance))
+        let direct = direct.map(|direct| unseen(PlanItem::DirectLight, direct));
+        [direct, caustics, interreflection].into_iter().flatten().max_by(|a, b| a.radiance.total_cmp(&b.radiance))
+    }
+}
+
+/// Flux that a camera sample in the disc of a beam stands for, W, after one full iteration: samples seldom meet a beam that is narrower than
+/// a pixel. 0 for lights that every point samples.
+fn flux_of_sample(world: &World, light: &Light) -> f64 {
+    match light {
+        Light::Parallel(rays) if !rays.from_outside => {
+            let samples = SAMPLES_PER_PIXEL * rays.area() / world.camera.footprint(world.view.distance).powi(2);
+            power(light) / samples
+        }
+        _ => 0.0,
     }
 }
 

@@ -40,6 +40,11 @@ impl Body {
         Self { name, ior, absorption, primitives: Vec::new(), bounds: Aabb::EMPTY, is_closed: false }
     }
 
+    /// Whether light goes through the body as through air.
+    pub(in crate::world) fn is_air(&self) -> bool {
+        self.ior == 1.0 && self.absorption.is_none()
+    }
+
     /// Transmittance over this distance (scene units), by the Beer-Lambert law.
     #[inline]
     pub fn transmittance(&self, distance: f64) -> Rgb {
