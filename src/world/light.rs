@@ -47,6 +47,11 @@ impl Light {
         }
     }
 
+    /// Whether the light comes from outside the scene.
+    pub(super) fn is_outside(&self) -> bool {
+        matches!(self, Self::Parallel(ParallelRays { from_outside: true, .. }))
+    }
+
     /// The center of the light; of a sun, of its disc.
     #[inline]
     pub fn center(&self) -> DVec3 {
@@ -89,7 +94,7 @@ impl Light {
                 let inset = [(0.5, 0.5), (0.01, 0.01), (0.99, 0.01), (0.99, 0.99), (0.01, 0.99)];
                 inset.map(|(u, v)| quad.position(u, v) + off_surface * quad.normal()).to_vec()
             }
-            Self::Parallel(ParallelRays { from_outside: true, .. }) => Vec::new(),
+            Self::Parallel(_) if self.is_outside() => Vec::new(),
             Self::Parallel(rays) => {
                 let inset = [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
                 inset.map(|point| rays.point(0.99 * point)).to_vec()

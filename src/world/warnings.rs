@@ -40,7 +40,11 @@ pub fn warnings(scene: &Scene, world: &World) -> Vec<Warning> {
         warnings.push(Warning::new("the camera", fault, "move it out, unless that is meant"));
     }
     for named in scene.lights.iter().filter(|named| light(named).power() != Rgb::ZERO) {
-        let (center, subject) = (light(named).center(), format!("light \"{}\"", named.name));
+        let (light, subject) = (light(named), format!("light \"{}\"", named.name));
+        if light.is_outside() {
+            continue;
+        }
+        let center = light.center();
         // A cavity of the index of air makes a hollow bulb.
         if let Some(body) = world.body(&world.media_around(center)).filter(|body| !body.is_air()) {
             let fault =

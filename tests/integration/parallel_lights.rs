@@ -4,6 +4,7 @@ use crate::support::{assert_near, mean, object, quad, render, scene, session, sp
 use patchlight::engine::Session;
 use patchlight::film::LinearImage;
 use patchlight::transport::{Cancel, Component};
+use patchlight::world::{prepare, warnings};
 use std::f64::consts::PI;
 
 /// The text of a camera that looks down at the origin from this height, with some materials.
@@ -91,6 +92,14 @@ fn a_sun_shines_through_glass_above_everything() {
     let image = only(&text, Component::Caustics, 16);
     assert_near(mean(&image), 2.0 * 0.5 / PI * through_a_plate(), 0.02, "under the pane");
     assert_eq!(mean(&only(&text, Component::Direct, 4)), 0.0, "light through glass is a caustic");
+}
+
+/// A sun is in no body, wherever the bodies are.
+#[test]
+fn no_warning_names_a_sun() {
+    let ball = sphere("ball", [0.0; 3], 2.0, "glass");
+    let file = scene(&[above(5.0, 40.0), ball, sun([0.2, -1.0, 0.1], 1.0, 0.53)].concat());
+    assert_eq!(warnings(&file.scene, &prepare(&file.scene, &file.location, None).unwrap()), []);
 }
 
 #[test]
