@@ -148,6 +148,7 @@ fn signals_end_a_rendering_with_its_picture() {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
+        // The first iterations take milliseconds; a signal before them would end with one iteration, too.
         std::thread::sleep(Duration::from_secs(1));
         let kill = Command::new("kill").args(["-s", signal, &run.id().to_string()]).status().unwrap();
         assert!(kill.success());

@@ -42,6 +42,8 @@ impl PhotonEmission {
         (0..).zip(&world.lights).map(|(index, light)| Self::new(world, light, index)).collect()
     }
 
+    /// Everywhere, unless that would waste most photons: a light that is far from the view aims at the view where objects spread far beyond
+    /// it; a light in whose chart the scene appears small aims at the scene.
     fn new(world: &World, light: &Light, light_index: u64) -> Self {
         let are_wide: Vec<bool> = world.aggregate.primitives().iter().map(|p| is_wide(world, light, p)).collect();
         let is_aim = |p: u32| !are_wide[p as usize];

@@ -102,7 +102,7 @@ impl Targets {
         (0..self.list.len()).collect()
     }
 
-    /// Those of some targets that a cell meets.
+    /// The targets that a cell meets, of the targets with the indices `among`.
     fn met(&self, cell: Cell, among: &[usize]) -> Vec<usize> {
         among.iter().copied().filter(|&t| cell.may_meet(&self.list[t], self.place_from_square)).collect()
     }
