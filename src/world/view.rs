@@ -1,3 +1,4 @@
+use crate::geometry::Sphere;
 use glam::DVec3;
 
 /// Where the surfaces are that the camera sees, directly, in mirrors or through glass: medians over a few probe rays, so that a small or
@@ -17,6 +18,8 @@ pub struct View {
     /// Size of the region around the surfaces, over `distance`: `spread`, or the median free path of light between the surfaces if that is
     /// more, as where the camera looks at a detail.
     pub region: f64,
+    /// Ball around most of the points where mirrors and glass may send light to the surfaces; `None` if the probe rays found none.
+    pub specular: Option<Sphere>,
 }
 
 impl View {

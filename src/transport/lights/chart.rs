@@ -2,16 +2,11 @@
 
 use super::cone::Cone;
 use super::small_targets::{Place, PlaceFromSquare};
-use crate::geometry::Primitive;
-use crate::math::{Aabb, octahedral};
-use crate::world::{Light, ParallelRays, World};
+use crate::geometry::Sphere;
+use crate::math::octahedral;
+use crate::world::{Light, ParallelRays};
 use glam::{DVec2, DVec3};
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
-
-/// A function that tells whether photons are to reach a primitive.
-pub(super) trait Aim: Fn(u32) -> bool + Sync {}
-impl<F: Fn(u32) -> bool + Sync> Aim for F {}
 
 /// The map from the unit square to the first rays of paths; it keeps areas.
 #[derive(Clone, Copy, Debug)]
@@ -49,15 +44,17 @@ impl Chart {
     }
 
     /// The places of paths that may meet a ball; `None` if they surround the light.
-    pub(super) fn cone(&self, center: DVec3, radius: f64) -> Option<Cone> {
+    pub(super) fn cone(&self, Sphere { center, radius }: Sphere) -> Option<Cone> {
         match self {
-            Self::Directions { radius: of_light, .. } => self.cone_of_light_center(center, radius + of_light),
-            Self::Disc(_) => self.cone_of_light_center(center, radius),
+            Self::Directions { radius: of_light, .. } => {
+                self.cone_of_light_center(Sphere { center, radius: radius + of_light })
+            }
+            Self::Disc(_) => self.cone_of_light_center(Sphere { center, radius }),
         }
     }
 
     /// The places of paths from the center of the light that may meet a ball; `None` if they surround the light.
-    pub(super) fn cone_of_light_center(&self, center: DVec3, radius: f64) -> Option<Cone> {
+    pub(super) fn cone_of_light_center(&self, Sphere { center, radius }: Sphere) -> Option<Cone> {
         match self {
             Self::Directions { center: from, .. } => Cone::around(center - *from, radius),
             Self::Disc(rays) => {
@@ -89,19 +86,4 @@ fn flat_place(crossing: DVec2) -> Place {
 #[inline]
 pub(super) fn crossing_at(place: Place) -> DVec2 {
     place.truncate() / (0.5 * flat_side())
-}
-
-/// For each object with surfaces to reach their box, and the places of paths to it from all points of the light; `None` for an object around
-/// the light.
-pub(super) fn cones_of_objects(world: &World, chart: &Chart, aim: &impl Aim) -> BTreeMap<u32, (Aabb, Option<Cone>)> {
-    let mut bounds = BTreeMap::<u32, Aabb>::new();
-    for (p, primitive) in (0..).zip(world.aggregate.primitives()) {
-        if let Some(object) = world.object_of(p).filter(|_| aim(p)) {
-            let unbounded = Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
-            let of_primitive = if matches!(primitive, Primitive::Plane(_)) { unbounded } else { primitive.bounds() };
-            let of_object = bounds.entry(object).or_insert(Aabb::EMPTY);
-            *of_object = of_object.union(&of_primitive);
-        }
-    }
-    bounds.iter().map(|(&object, b)| (object, (*b, chart.cone(b.center(), 0.5 * b.diagonal())))).collect()
 }

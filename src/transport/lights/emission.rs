@@ -72,6 +72,32 @@ pub(super) fn sample_origin(light: &Light, sampler: &mut Sampler) -> Origin {
     }
 }
 
+/// Etendue, steradians times square scene units, over the measure of a path's own choice: of a path that leaves a point of an area light in
+/// this direction (unit length) per steradian, if its point is even over the area; of parallel rays per area across them, if their
+/// direction is even over the cone. 0 where the light does not shine, and for lights without etendue.
+#[inline]
+pub(super) fn etendue_ratio(light: &Light, light_point: DVec3, direction: DVec3) -> f64 {
+    match light {
+        Light::Point { .. } => 0.0,
+        Light::Sphere { sphere, .. } => {
+            let cos = direction.dot(light_point - sphere.center) / sphere.radius;
+            4.0 * PI * sphere.radius * sphere.radius * cos.max(0.0)
+        }
+        Light::Quad { quad, .. } => quad.area() * direction.dot(quad.normal()).max(0.0),
+        Light::Parallel(rays) => 4.0 * PI * (0.5 * rays.half_angle).sin().powi(2),
+    }
+}
+
+/// Radiance of a light with etendue, W/(sr m^2); of others 0.
+pub(super) fn radiance(light: &Light) -> Rgb {
+    match light {
+        Light::Point { .. } => Rgb::ZERO,
+        Light::Sphere { radiance, .. } | Light::Quad { radiance, .. } => *radiance,
+        Light::Parallel(rays) if rays.half_angle == 0.0 => Rgb::ZERO,
+        Light::Parallel(rays) => rays.irradiance / (PI * rays.half_angle.sin().powi(2)) as f32,
+    }
+}
+
 /// Samples the first ray of a path in proportion to the light's emission.
 #[inline]
 pub(in crate::transport) fn emit(light: &Light, sampler: &mut Sampler) -> Emission {

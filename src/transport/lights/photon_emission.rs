@@ -1,10 +1,10 @@
 //! How photons of interreflection leave a light: in all directions, or from a far light towards the scene.
 
 use super::ProjectionMap;
-use super::chart::{Chart, cones_of_objects};
-use super::cone::Cone;
+use super::chart::Chart;
 use super::emission::{self, Emission};
-use crate::geometry::Primitive;
+use super::rays_to_ball::{RaysToBall, fraction_of_objects, rays_to_view};
+use crate::geometry::{Primitive, Sphere};
 use crate::math::Sampler;
 use crate::world::{Light, World};
 use glam::DVec3;
@@ -20,11 +20,7 @@ const WIDE: f64 = 100.0;
 /// The visible ground and its illumination lie mostly in it.
 const VIEW: f64 = 2.0;
 
-/// Radius of the view in a light's chart (radians where the chart is of directions) below which the light is far: half of the photons then
-/// aim at the view, whatever fills the rest of the chart. A light that is so far away would rarely meet the view otherwise.
-const SMALL_VIEW: f64 = 0.02;
-
-/// Area of the objects in the chart over the area of the view from which on most photons that aim at the objects miss the view.
+/// Rays to the objects over rays to the view of a far light from which on most photons that aim at the objects miss the view.
 const SPREAD: f64 = 4.0;
 
 /// The first rays of a light's photon paths.
@@ -47,23 +43,23 @@ impl PhotonEmission {
     fn new(world: &World, light: &Light, light_index: u64) -> Self {
         let are_wide: Vec<bool> = world.aggregate.primitives().iter().map(|p| is_wide(world, light, p)).collect();
         let is_aim = |p: u32| !are_wide[p as usize];
-        let cones: Option<Vec<Cone>> =
-            cones_of_objects(world, &Chart::new(light), &is_aim).into_values().map(|(_, cone)| cone).collect();
-        let (view, has_wide) = (view_cone(world, light), are_wide.contains(&true));
-        let filled = |cones: &[Cone]| cones.iter().map(Cone::fraction_of_chart).sum::<f64>();
-        let by_objects = cones.as_deref().map_or(1.0, filled);
-        if let Some(view) = view.filter(|view| view.radius < SMALL_VIEW)
-            && (has_wide || by_objects > SPREAD * view.fraction_of_chart())
-        {
-            return Self::Aimed(Box::new(ProjectionMap::build(world, light, light_index, Some(view), &is_aim)));
+        let has_wide = are_wide.contains(&true);
+        let chart = Chart::new(light);
+        let around_view = Sphere { center: world.view.center, radius: VIEW * world.view.distance };
+        let by_objects = fraction_of_objects(world, light, &chart, &is_aim);
+        let beyond_view = if has_wide { None } else { by_objects };
+        let rays_to_view = rays_to_view(light, &chart, around_view, beyond_view, SPREAD);
+        if let Some(view) = rays_to_view.filter(|rays| rays.are_few()) {
+            return Self::Aimed(Box::new(ProjectionMap::build(world, light, light_index, &[view], &is_aim)));
         }
-        let has_cones = cones.is_some() && (view.is_some() || !has_wide);
-        let view = view.filter(|_| has_wide);
-        let filled = by_objects + view.as_ref().map_or(0.0, Cone::fraction_of_chart);
-        if !has_cones || filled == 0.0 || filled > FAR {
+        let view = RaysToBall::new(light, &chart, around_view);
+        let is_around = by_objects.is_none() || (view.is_none() && has_wide);
+        let views: Vec<RaysToBall> = view.into_iter().filter(|_| has_wide).collect();
+        let filled = by_objects.unwrap_or(1.0) + views.iter().map(|rays| rays.fraction_of(light)).sum::<f64>();
+        if is_around || filled == 0.0 || filled > FAR {
             return Self::Everywhere;
         }
-        Self::Aimed(Box::new(ProjectionMap::build(world, light, light_index, view, &is_aim)))
+        Self::Aimed(Box::new(ProjectionMap::build(world, light, light_index, &views, &is_aim)))
     }
 
     /// The first ray of a path; `None` where the light does not shine in the sampled direction.
@@ -88,7 +84,7 @@ impl PhotonEmission {
     pub(in crate::transport) fn density(&self, light: &Light, light_point: DVec3, point: DVec3) -> f64 {
         match self {
             Self::Everywhere => emission::density(light, light_point, point),
-            Self::Aimed(map) => map.path_density(light_point, point),
+            Self::Aimed(map) => map.path_density(light, light_point, point),
         }
     }
 }
@@ -101,9 +97,4 @@ fn is_wide(world: &World, light: &Light, primitive: &Primitive) -> bool {
         _ => light.center().distance(world.view.center).max(world.view.distance),
     };
     matches!(primitive, Primitive::Plane(_)) || 0.5 * primitive.bounds().diagonal() >= WIDE * distance
-}
-
-/// The cone in which the light sees the view and its surroundings; `None` if these surround the light.
-fn view_cone(world: &World, light: &Light) -> Option<Cone> {
-    Chart::new(light).cone(world.view.center, VIEW * world.view.distance)
 }

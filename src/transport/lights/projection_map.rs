@@ -1,25 +1,24 @@
 //! The projection map: paths on which a light meets the surfaces that its photons are to reach \[Jensen96\].
 
-use super::chart::{Aim, Chart, cones_of_objects, crossing_at};
+use super::bundle::Bundle;
+use super::chart::Chart;
 use super::cone::Cone;
 use super::emission::{self, Emission, Origin};
 use super::light_sampler::MOST_SAMPLED;
-use super::small_targets::{Cell, CellTree, Place, PlaceFromSquare, Target, Targets};
-use crate::geometry::Primitive;
-use crate::math::{Aabb, OrthonormalBasis, Ray, Sampler, Stream, warp};
+use super::probe_rays::{PROBES_ALONG_SIDE, Probes, SIDE};
+use super::rays_to_ball::{Aim, RaysToBall, ball_around, balls_of_objects, fraction_of_objects, rays_to_view};
+use super::small_targets::{Cell, CellTree, Target, Targets};
+use crate::geometry::{Primitive, Sphere};
+use crate::math::Sampler;
 use crate::world::{Light, World};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::iter;
 
-/// Cells along a side of the chart: of directions, a cell subtends about 3 degrees, narrower than most objects.
-const SIDE: usize = 64;
 /// Depth of the cells in a quadtree over the square.
 const DEPTH: u32 = SIDE.ilog2();
-/// Probe rays along a side of a cell; one in scenes where points sample only some of many lights. Three would take 37 000 instead of 16 000
-/// rays for each light after an edit; with one, more mirrors are found by the defensive paths alone, which leaves their caustics noisy.
-const PROBES_ALONG_SIDE: u64 = 2;
 /// Least cells that a thread probes at a time, some ten microseconds of work: with fewer, sharing the work costs more than the work; with
 /// more, a thread may wait for the last one.
 const CELLS_PER_TASK: usize = SIDE;
@@ -28,21 +27,33 @@ const DEFENSIVE_FRACTION: f64 = 0.03;
 /// Diameter of a primitive in the chart (radians where the chart is of directions) below which all probe rays may miss the primitive. Two
 /// cells are about as wide; a larger primitive does not slip between their probe rays.
 const SMALL_PRIMITIVE: f64 = 0.1;
-/// Radius of an object in the chart (radians where the chart is of directions) below which the cells around it are refined: it fills less than a cell.
-const SMALL_OBJECT: f64 = 0.02;
 /// Least fraction of the paths for a small object beside larger ones: in proportion to its solid angle it might get none. A larger fraction
 /// would take paths from the caustics of larger objects; a smaller one would leave the caustic of a small object noisy.
 const LEAST_FRACTION: f64 = 1.0 / 64.0;
 /// Most that the least fractions of all small objects take together. More would leave few paths for larger objects beside hundreds of small
 /// ones; less would make their caustics noisy.
 const LEAST_FRACTIONS: f64 = 0.25;
-/// Rays to a small object that tell whether the light meets it. Fewer may all miss an object of which others hide all but a tenth, whose
-/// light is then left to the defensive paths; more would take time for each object and light after an edit.
-const RAYS_TO_SMALL_OBJECT: u64 = 32;
+/// Most small objects that a wide light aims at one by one, because the density of a path is a sum over them. Beyond, cells aim at them as at
+/// large ones, which wastes more paths.
+const MOST_BUNDLES: usize = 64;
 
-/// A density of the first rays of paths over the chart of a light, constant in each cell.
+/// Radius of a ball around what the camera sees, over that of what the film shows: light through flat glass goes straight on, and is at most a
+/// little aside.
+const AROUND_VIEW: f64 = 2.0;
+/// Rays to mirrors and glass over rays to the view from which on half of the photons aim at the view. From much smaller values on the other
+/// photons, which are fewer then, would cost more than the aim brings.
+const SPREAD: f64 = 16.0;
+/// Least fraction of the rays to the view that meet mirrors and glass first, for photons of caustics to aim there. At a smaller one hardly
+/// more of them would matter than of those that aim at all mirrors and glass.
+const LEAST_MET: f64 = 1.0 / 16.0;
+
+/// A density of the first rays of paths: over the chart of a light, constant in each cell, and in bundles.
 #[derive(Clone, Debug)]
 pub struct ProjectionMap {
+    /// Bundles with their fractions of the paths.
+    bundles: Vec<(Bundle, f64)>,
+    /// Fraction of the paths over the chart.
+    chart_fraction: f64,
     chart: Chart,
     /// Cumulative distribution of the rows, `SIDE + 1` values from 0 to 1.
     rows: Vec<f64>,
@@ -57,22 +68,30 @@ pub struct ProjectionMap {
 impl ProjectionMap {
     /// The projection map of a light for mirrors and glass.
     pub(in crate::transport) fn of_specular(world: &World, light: &Light, light_index: u64) -> Self {
-        Self::build(world, light, light_index, None, &|p| world.is_specular(p))
+        let aim = |p| world.is_specular(p);
+        let chart = Chart::new(light);
+        let by_objects = fraction_of_objects(world, light, &chart, &aim);
+        let probes = Probes { world, light, light_index, chart };
+        let seen = Sphere { center: world.view.center, radius: AROUND_VIEW * world.view.radius() };
+        let views: Vec<RaysToBall> = [Some(seen), world.view.specular]
+            .into_iter()
+            .flatten()
+            .filter_map(|ball| {
+                let rays = rays_to_view(light, &chart, ball, by_objects, SPREAD)?;
+                let (met, all) = probes.count_met(0, ball, rays, &aim);
+                (met as f64 > LEAST_MET * all as f64).then_some(rays)
+            })
+            .collect();
+        Self::build(world, light, light_index, &views, &aim)
     }
 
-    /// The projection map of a light, from probe rays into every cell and to each object that appears small, and of the cone of the
-    /// view.
-    pub(super) fn build(world: &World, light: &Light, light_index: u64, view: Option<Cone>, aim: &impl Aim) -> Self {
+    /// The projection map of a light, from probe rays into every cell and to each object that appears small, and of the rays to the view.
+    pub(super) fn build(world: &World, light: &Light, light_index: u64, views: &[RaysToBall], aim: &impl Aim) -> Self {
         let chart = Chart::new(light);
-        let is_small_cone = |cone: &Cone| cone.radius < SMALL_OBJECT;
-        let small: BTreeMap<u32, (Aabb, Cone)> = cones_of_objects(world, &chart, aim)
-            .into_iter()
-            .filter_map(|(object, (bounds, cone))| Some((object, (bounds, cone.filter(is_small_cone)?))))
-            .collect();
+        let small = small_objects(world, light, &chart, aim);
         let is_small = |p: u32| world.object_of(p).is_some_and(|object| small.contains_key(&object));
         let marks = |p: u32| aim(p) && !is_small(p);
         let along = if world.lights.len() > MOST_SAMPLED { 1 } else { PROBES_ALONG_SIDE };
-        let place = chart.place_from_square();
         let probes = Probes { world, light, light_index, chart };
         let seen: Vec<bool> = (0..SIDE * SIDE)
             .into_par_iter()
@@ -83,27 +102,47 @@ impl ProjectionMap {
         for cell in cells_of_small_primitives(world, &chart, &marks) {
             is_marked[cell] = true;
         }
-        if let Some(wide) = view.filter(|cone| !is_small_cone(cone)) {
-            (0..SIDE * SIDE)
-                .filter(|&cell| cell_at(cell).may_meet(&wide.target(), place))
-                .for_each(|cell| is_marked[cell] = true);
-        }
-        let cones: Vec<Cone> = (0..)
+        let met: Vec<RaysToBall> = (0..)
             .zip(small)
-            .filter_map(|(k, (object, (bounds, cone)))| {
+            .filter_map(|(k, (object, (ball, rays)))| {
                 let of_object = |p: u32| aim(p) && world.object_of(p) == Some(object);
-                probes.meet_small(k, &bounds, cone, &of_object).then_some(cone)
+                (probes.count_met(k, ball, rays, &of_object).0 > 0).then_some(rays)
             })
             .collect();
-        Self::from_cells(chart, &is_marked, &cones, view.filter(is_small_cone))
+        Self::from_cells(light, chart, &is_marked, &met, views)
     }
 
-    fn from_cells(chart: Chart, is_marked: &[bool], cones: &[Cone], view: Option<Cone>) -> Self {
+    fn from_cells(
+        light: &Light,
+        chart: Chart,
+        is_marked: &[bool],
+        objects: &[RaysToBall],
+        views: &[RaysToBall],
+    ) -> Self {
         let count = is_marked.iter().filter(|&&is| is).count();
         let total = (SIDE * SIDE) as f64;
         let marked_area = count as f64 / total;
-        let (targets, areas) = targets(cones, view, marked_area, chart.place_from_square());
-        let of_targets: f64 = targets.list.iter().map(|target| target.path_fraction).sum();
+        let all_rays: Vec<RaysToBall> = objects.iter().chain(views).copied().collect();
+        let list: Vec<Target> = all_rays.iter().filter_map(RaysToBall::cone).map(Cone::target).collect();
+        let mut targets = Targets { list, place_from_square: chart.place_from_square() };
+        let areas_in_chart = targets.covered_areas();
+        let mut in_chart = areas_in_chart.iter();
+        let areas: Vec<f64> = all_rays
+            .iter()
+            .filter_map(
+                |rays| if rays.cone().is_some() { in_chart.next().copied() } else { Some(rays.fraction_of(light)) },
+            )
+            .collect();
+        let fractions = path_fractions(&areas, views.len(), marked_area);
+        let mut cones = targets.list.iter_mut();
+        let mut bundles = Vec::new();
+        for (rays, &fraction) in all_rays.iter().zip(&fractions) {
+            match rays {
+                RaysToBall::Cone(_) => cones.next().into_iter().for_each(|target| target.path_fraction = fraction),
+                RaysToBall::Bundle(bundle) => bundles.push((*bundle, fraction)),
+            }
+        }
+        let of_targets: f64 = fractions.iter().sum();
         let rest = 1.0 - DEFENSIVE_FRACTION - of_targets;
         let probability = |cell: usize| {
             let uniform = 1.0 / total;
@@ -120,11 +159,9 @@ impl ProjectionMap {
             let mut cumulative = [0.0; SIDE + 1];
             for column in 0..SIDE {
                 let index = row * SIDE + column;
-                let mut mass = probability(index);
-                if let Some((tree, with_targets)) = CellTree::new(cell_at(index), &targets, &areas, mass * total) {
-                    mass = with_targets;
-                    trees.insert(index, tree);
-                }
+                let even = probability(index) * total;
+                let (tree, mass) = CellTree::new(cell_at(index), &targets, &areas_in_chart, even);
+                trees.extend(tree.map(|tree| (index, tree)));
                 cumulative[column + 1] = cumulative[column] + mass;
             }
             let sum = cumulative[SIDE];
@@ -133,12 +170,11 @@ impl ProjectionMap {
         }
         let all = rows[SIDE];
         rows.iter_mut().for_each(|x| *x /= all);
-        let covered = match (view, targets.list.last(), areas.last()) {
-            // As if all paths went to the view: the others bring little light there.
-            (Some(_), Some(target), Some(area)) => area / target.path_fraction,
-            _ => marked_area + areas.iter().sum::<f64>(),
-        };
-        Self { chart, rows, cells, trees, covered }
+        // As if all paths went to the view: the others bring little light there.
+        let of_views = areas.iter().zip(&fractions).skip(objects.len()).map(|(area, fraction)| area / fraction);
+        let covered = of_views.reduce(f64::max).unwrap_or(marked_area + areas.iter().sum::<f64>());
+        let chart_fraction = 1.0 - bundles.iter().map(|(_, fraction)| fraction).sum::<f64>();
+        Self { bundles, chart_fraction, chart, rows, cells, trees, covered }
     }
 
     /// Samples a point of the unit square; returns it with its density. Monotonic in both numbers, so that stratified numbers give
@@ -167,26 +203,47 @@ impl ProjectionMap {
     }
 
     /// Density of the paths that leave this point of the light, per area across them at `point`, scene units.
-    pub(super) fn path_density(&self, light_point: DVec3, point: DVec3) -> f64 {
+    pub(super) fn path_density(&self, light: &Light, light_point: DVec3, point: DVec3) -> f64 {
         let offset = point - light_point;
         let direction = offset.normalize_or(DVec3::Z);
+        let density = self.ray_density(light, light_point, direction, None);
         match &self.chart {
-            Chart::Directions { .. } => {
-                self.density(self.chart.square_from_place(direction)) / (4.0 * PI * offset.length_squared())
-            }
+            Chart::Directions { .. } => density / offset.length_squared(),
+            Chart::Disc(_) => density,
+        }
+    }
+
+    /// Density of the rays in this direction, from a point of an area light per steradian, of parallel rays per area across them. A ray that
+    /// was sampled in a bundle counts as one of it, whatever rounding does at the bundle's edge.
+    fn ray_density(&self, light: &Light, light_point: DVec3, direction: DVec3, sampled: Option<usize>) -> f64 {
+        let in_chart = match &self.chart {
+            Chart::Directions { .. } => self.density(self.chart.square_from_place(direction)) / (4.0 * PI),
             Chart::Disc(rays) => {
-                let at = rays.crossing(point, direction);
+                let at = rays.crossing(light_point, direction);
                 let square = 0.5 * at + 0.5;
                 let is_in = at.abs().max_element() <= 1.0 && (rays.from_outside || at.length_squared() <= 1.0);
                 let per_area = self.density(square) / (2.0 * rays.radius).powi(2);
                 if is_in { per_area / direction.dot(rays.direction) } else { 0.0 }
             }
+        };
+        if self.bundles.is_empty() {
+            return in_chart;
         }
+        let of_bundle = |(k, (bundle, fraction)): (usize, &(Bundle, f64))| {
+            let is_in = sampled == Some(k) || bundle.contains(light_point, direction);
+            if is_in { fraction * bundle.density() } else { 0.0 }
+        };
+        let in_bundles: f64 = self.bundles.iter().enumerate().map(of_bundle).sum();
+        self.chart_fraction * in_chart + in_bundles * emission::etendue_ratio(light, light_point, direction)
     }
 
     /// Samples the first ray of a path towards the surfaces; `None` where the light does not shine there.
     #[inline]
     pub(in crate::transport) fn emit(&self, light: &Light, sampler: &mut Sampler) -> Option<Emission> {
+        if self.bundles.is_empty() { self.emit_in_chart(light, sampler) } else { self.emit_in_mixture(light, sampler) }
+    }
+
+    fn emit_in_chart(&self, light: &Light, sampler: &mut Sampler) -> Option<Emission> {
         if let Chart::Disc(rays) = &self.chart {
             let (square, density) = self.sample(sampler.next_2d());
             let (at, per_area) = (2.0 * square - 1.0, density / (2.0 * rays.radius).powi(2));
@@ -199,6 +256,28 @@ impl ProjectionMap {
         let cos = normal.map_or(1.0, |n| n.dot(direction));
         let flux = strength * (cos / (density / (4.0 * PI))) as f32;
         (cos > 0.0).then_some(Emission { origin: position, direction, flux })
+    }
+
+    /// Samples a ray over the chart or in one of the bundles, with the density of all together.
+    fn emit_in_mixture(&self, light: &Light, sampler: &mut Sampler) -> Option<Emission> {
+        let mut u = sampler.next_1d() - self.chart_fraction;
+        let mut sampled = None;
+        let (origin, direction) = if u < 0.0 {
+            let Emission { origin, direction, .. } = self.emit_in_chart(light, sampler)?;
+            (origin, direction)
+        } else {
+            let last = self.bundles.len() - 1;
+            let chosen = self.bundles.iter().position(|(_, fraction)| {
+                u -= fraction;
+                u < 0.0
+            });
+            let k = chosen.unwrap_or(last);
+            sampled = Some(k);
+            self.bundles[k].0.sample(light, sampler)?
+        };
+        let ratio = emission::etendue_ratio(light, origin, direction);
+        let density = self.ray_density(light, origin, direction, sampled) / ratio;
+        Some(Emission { origin, direction, flux: emission::radiance(light) / density as f32 })
     }
 
     /// Fraction of the chart that the aimed paths cover: all of it, if the light meets none of the surfaces.
@@ -226,78 +305,6 @@ fn cell_at(index: usize) -> Cell {
     Cell { depth: DEPTH, x: (index % SIDE) as u64, y: (index / SIDE) as u64 }
 }
 
-/// Probe rays from a light.
-struct Probes<'a> {
-    world: &'a World,
-    light: &'a Light,
-    light_index: u64,
-    chart: Chart,
-}
-
-/// The part of a probe ray that its place in the chart leaves open.
-enum Start {
-    Origin(Origin),
-    /// The direction of a ray through a disc.
-    Direction(DVec3),
-}
-
-impl Probes<'_> {
-    /// Whether the probe ray into one of the `along` times `along` strata of a cell meets such a surface first.
-    fn meet_in_cell(&self, cell: usize, probe: u64, along: u64, is_aim: &impl Aim) -> bool {
-        let index = cell as u64 * along * along + probe;
-        let mut sampler = Sampler::new(0, Stream::Probe, self.light_index, index);
-        let start = self.start(&mut sampler);
-        let stratum = DVec2::new((probe % along) as f64, (probe / along) as f64);
-        let within = (stratum + sampler.next_2d()) / along as f64;
-        let corner = DVec2::new((cell % SIDE) as f64, (cell / SIDE) as f64);
-        self.meet(&start, self.chart.place_from_square()((corner + within) / SIDE as f64), is_aim)
-    }
-
-    /// Whether any of some rays to a box, which appears in a cone, meets such a surface first. From each point of a lamp the rays aim at the
-    /// box as seen from there: a lamp larger than the box would miss it with most rays of the cone.
-    fn meet_small(&self, box_index: u64, bounds: &Aabb, cone: Cone, is_aim: &impl Aim) -> bool {
-        (0..RAYS_TO_SMALL_OBJECT).any(|k| {
-            let index =
-                (SIDE * SIDE) as u64 * PROBES_ALONG_SIDE * PROBES_ALONG_SIDE + box_index * RAYS_TO_SMALL_OBJECT + k;
-            let mut sampler = Sampler::new(0, Stream::Probe, self.light_index, index);
-            let start = self.start(&mut sampler);
-            let u = sampler.next_2d();
-            let place = match &start {
-                Start::Origin(origin) => {
-                    let seen = Cone::around(bounds.center() - origin.position, 0.5 * bounds.diagonal()).unwrap_or(cone);
-                    // 1 - cos of the angle.
-                    let height = 2.0 * (0.5 * seen.radius).sin().powi(2);
-                    OrthonormalBasis::from_normal(seen.middle).world_from_local(warp::uniform_cone(u, height))
-                }
-                Start::Direction(_) => cone.middle + (cone.radius * warp::concentric_disc(u)).extend(0.0),
-            };
-            self.meet(&start, place, is_aim)
-        })
-    }
-
-    fn start(&self, sampler: &mut Sampler) -> Start {
-        match &self.chart {
-            Chart::Directions { .. } => Start::Origin(emission::sample_origin(self.light, sampler)),
-            Chart::Disc(rays) => Start::Direction(rays.sample_direction(sampler).0),
-        }
-    }
-
-    fn meet(&self, start: &Start, place: Place, is_aim: &impl Aim) -> bool {
-        let ray = match (&self.chart, start) {
-            (Chart::Disc(rays), Start::Direction(direction)) => self.ray(rays.point(crossing_at(place)), *direction),
-            (_, Start::Origin(origin)) if origin.normal.is_none_or(|normal| normal.dot(place) > 0.0) => {
-                self.ray(origin.position, place)
-            }
-            _ => return false,
-        };
-        self.world.aggregate.closest_hit(&ray).is_some_and(|hit| is_aim(hit.primitive))
-    }
-
-    fn ray(&self, origin: DVec3, direction: DVec3) -> Ray {
-        emission::ray_from_light(self.world, self.light, origin, direction)
-    }
-}
-
 /// The marked cells and their eight neighbours.
 fn dilated(marked: &[bool]) -> Vec<bool> {
     let near = |row: usize, column: usize| {
@@ -314,8 +321,7 @@ fn cells_of_small_primitives(world: &World, chart: &Chart, is_aim: &impl Aim) ->
         if matches!(primitive, Primitive::Plane(_)) || !is_aim(index as u32) {
             continue;
         }
-        let bounds = primitive.bounds();
-        let Some(cone) = chart.cone_of_light_center(bounds.center(), 0.5 * bounds.diagonal()) else { continue };
+        let Some(cone) = chart.cone_of_light_center(ball_around(&primitive.bounds())) else { continue };
         let square = chart.square_from_place(cone.middle) * SIDE as f64;
         if 2.0 * cone.radius < SMALL_PRIMITIVE && square.cmpge(DVec2::ZERO).all() {
             let (column, row) = (square.x as usize, square.y as usize);
@@ -326,36 +332,44 @@ fn cells_of_small_primitives(world: &World, chart: &Chart, is_aim: &impl Aim) ->
     cells
 }
 
-/// The targets of the cones, and of the view as the last one, beside cells that cover this area of the unit square, and the areas that the
-/// targets cover. Each gets a fraction of the paths in proportion to its area, but not less than [`LEAST_FRACTION`], the view as much as
-/// all cells and cones together.
-fn targets(
-    cones: &[Cone],
-    view: Option<Cone>,
-    marked_area: f64,
-    place_from_square: PlaceFromSquare,
-) -> (Targets, Vec<f64>) {
-    let list: Vec<Target> = cones.iter().chain(&view).map(Cone::target).collect();
-    let mut targets = Targets { list, place_from_square };
-    let areas = targets.covered_areas();
-    let least = LEAST_FRACTION.min(LEAST_FRACTIONS / cones.len() as f64);
-    let of_cones = &areas[..cones.len()];
-    let total = marked_area + of_cones.iter().sum::<f64>();
-    let mut weights: Vec<f64> = of_cones.iter().map(|area| (area / total).max(least)).collect();
-    let sum = weights.iter().sum::<f64>() + if marked_area > 0.0 { marked_area / total } else { 0.0 };
-    weights.extend(view.map(|_| if sum > 0.0 { sum } else { 1.0 }));
-    let sum = sum + view.and(weights.last()).copied().unwrap_or(0.0);
-    for (target, weight) in targets.list.iter_mut().zip(weights) {
-        target.path_fraction = (1.0 - DEFENSIVE_FRACTION) * weight / sum;
+/// The objects that photons are to reach to which few rays of the light go: a ball around each, and those rays.
+fn small_objects(world: &World, light: &Light, chart: &Chart, aim: &impl Aim) -> BTreeMap<u32, (Sphere, RaysToBall)> {
+    let mut small: BTreeMap<u32, (Sphere, RaysToBall)> = balls_of_objects(world, aim)
+        .into_iter()
+        .filter_map(|(object, ball)| {
+            let rays = RaysToBall::new(light, chart, ball)?;
+            rays.are_few().then_some((object, (ball, rays)))
+        })
+        .collect();
+    if small.values().filter(|(_, rays)| rays.cone().is_none()).count() > MOST_BUNDLES {
+        small.retain(|_, (_, rays)| rays.cone().is_some());
     }
-    (targets, areas)
+    small
+}
+
+/// The fraction of the paths for rays of these areas in the chart (etendue over the light's) beside cells that cover `marked_area`: in
+/// proportion to the area, but not less than [`LEAST_FRACTION`] for an object. The last areas are of views, which get as much as all
+/// cells and objects together.
+fn path_fractions(areas: &[f64], views: usize, marked_area: f64) -> Vec<f64> {
+    let of_objects = &areas[..areas.len() - views];
+    let least = LEAST_FRACTION.min(LEAST_FRACTIONS / of_objects.len() as f64);
+    let total = marked_area + of_objects.iter().sum::<f64>();
+    let mut weights: Vec<f64> = of_objects.iter().map(|area| (area / total).max(least)).collect();
+    let mut sum = weights.iter().sum::<f64>() + if marked_area > 0.0 { marked_area / total } else { 0.0 };
+    if views > 0 {
+        let of_views = if sum > 0.0 { sum } else { 1.0 };
+        weights.extend(iter::repeat_n(of_views / views as f64, views));
+        sum += of_views;
+    }
+    weights.iter().map(|weight| (1.0 - DEFENSIVE_FRACTION) * weight / sum).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Rgb;
+    use crate::geometry::Quad;
     use crate::math::chi_square::assert_has_density;
+    use crate::math::{Rgb, Stream};
     use crate::world::ParallelRays;
 
     /// A point light at the origin.
@@ -384,7 +398,7 @@ mod tests {
     fn samples_have_their_density() {
         let cells = some_cells();
         let marked = cells.iter().filter(|&&is| is).count() as f64;
-        let map = ProjectionMap::from_cells(Chart::new(&lamp()), &cells, &[], None);
+        let map = ProjectionMap::from_cells(&lamp(), Chart::new(&lamp()), &cells, &[], &[]);
         assert_eq!(map.covered(), marked / 4096.0);
         // A third of a cell aside, so that bins also show where in the cells samples lie.
         let aside = DVec2::splat(1.0 / (3.0 * SIDE as f64));
@@ -408,14 +422,15 @@ mod tests {
     fn paths_from_a_lamp_have_the_density_that_mis_weights_take() {
         let chart = Chart::new(&lamp());
         let cone = |x: f64, y: f64, radius| Cone { middle: chart.place_from_square()(DVec2::new(x, y)), radius };
-        let map = ProjectionMap::from_cells(chart, &some_cells(), &[cone(0.3, 0.6, 0.3)], Some(cone(0.71, 0.24, 0.02)));
+        let (object, view) = (RaysToBall::Cone(cone(0.3, 0.6, 0.3)), RaysToBall::Cone(cone(0.71, 0.24, 0.02)));
+        let map = ProjectionMap::from_cells(&lamp(), chart, &some_cells(), &[object], &[view]);
         let sample = |sampler: &mut Sampler| {
             let Emission { origin, direction, flux } = map.emit(&lamp(), sampler)?;
-            let expected = 1.0 / map.path_density(origin, origin + direction);
+            let expected = 1.0 / map.path_density(&lamp(), origin, origin + direction);
             assert!((f64::from(flux.x) / expected - 1.0).abs() < 1e-4, "the flux is 1 over the density: {flux}");
             Some(chart.square_from_place(direction))
         };
-        let density = |p| 4.0 * PI * map.path_density(DVec3::ZERO, 2.0 * chart.place_from_square()(p)) * 4.0;
+        let density = |p| 4.0 * PI * map.path_density(&lamp(), DVec3::ZERO, 2.0 * chart.place_from_square()(p)) * 4.0;
         assert_has_density("lamp", sample, density);
     }
 
@@ -424,7 +439,7 @@ mod tests {
         let (rays, light) = (beam(), Light::Parallel(beam()));
         let chart = Chart::new(&light);
         let cone = Cone { middle: chart.place_from_square()(DVec2::new(0.4, 0.6)), radius: 0.2 };
-        let map = ProjectionMap::from_cells(chart, &some_cells(), &[cone], None);
+        let map = ProjectionMap::from_cells(&light, chart, &some_cells(), &[RaysToBall::Cone(cone)], &[]);
         let sample = |sampler: &mut Sampler| {
             let Emission { origin, direction, .. } = map.emit(&light, sampler)?;
             assert!(origin.distance(rays.center) <= 2.0 + 1e-9 && direction == rays.direction);
@@ -432,15 +447,84 @@ mod tests {
         };
         let density = |p: DVec2| {
             let point = rays.point(2.0 * p - 1.0);
-            16.0 * map.path_density(point, point + 5.0 * rays.direction)
+            16.0 * map.path_density(&light, point, point + 5.0 * rays.direction)
         };
         assert_has_density("beam", sample, density);
+    }
+
+    /// A sphere, a quad and a sun, all brighter than 0 in one colour only.
+    fn wide_lights() -> [Light; 3] {
+        let radiance = Rgb::new(2.0, 0.0, 0.0);
+        let sphere = Sphere { center: DVec3::new(0.5, 3.0, 0.0), radius: 1.0 };
+        // Its normal is -y.
+        let quad = Quad::new(DVec3::new(-1.0, 3.0, -1.0), 2.0 * DVec3::X, 2.0 * DVec3::Z);
+        let sun = ParallelRays { half_angle: 0.2, from_outside: true, irradiance: radiance, ..beam() };
+        [Light::Sphere { sphere, radiance }, Light::Quad { quad, radiance }, Light::Parallel(sun)]
+    }
+
+    fn small_ball(light: &Light) -> Sphere {
+        let offset = match light {
+            Light::Parallel(rays) => 5.0 * rays.direction,
+            _ => DVec3::new(0.1, -3.0, 0.4),
+        };
+        Sphere { center: light.center() + offset, radius: 0.4 }
+    }
+
+    /// The flux that paths carry to a ball, as a fraction of the light's power, is that of paths in proportion to the light's emission, of
+    /// which a part of a percent reach the ball. Part of the ball is beside the bundle.
+    #[test]
+    fn bundles_and_cells_bring_the_flux_of_the_light() {
+        for light in wide_lights() {
+            let aim = small_ball(&light);
+            let target = Sphere { center: aim.center + 0.15 * DVec3::X, radius: 0.4 };
+            let bundle = Bundle::new(&light, aim).expect("the light is wider");
+            let map = ProjectionMap::from_cells(
+                &light,
+                Chart::new(&light),
+                &[true; SIDE * SIDE],
+                &[],
+                &[RaysToBall::Bundle(bundle)],
+            );
+            let to_target = |emission: &Emission| {
+                let offset = target.center - emission.origin;
+                let is_before = matches!(light, Light::Parallel(_)) || offset.dot(emission.direction) > 0.0;
+                is_before && offset.cross(emission.direction).length() < target.radius
+            };
+            let count = 1 << 21;
+            let mean = |emit: &dyn Fn(&mut Sampler) -> Option<Emission>| {
+                let flux = |index| emit(&mut Sampler::new(3, Stream::GlobalPhoton, 0, index)).filter(to_target);
+                (0..count).filter_map(flux).map(|emission| f64::from(emission.flux.x)).sum::<f64>() / count as f64
+            };
+            let expected = mean(&|sampler| Some(emission::emit(&light, sampler)));
+            let aimed = mean(&|sampler| map.emit(&light, sampler));
+            assert!((aimed / expected - 1.0).abs() < 0.03, "{aimed} instead of {expected}: {light:?}");
+        }
+    }
+
+    #[test]
+    fn paths_in_bundles_have_the_density_that_mis_weights_take() {
+        for light in wide_lights() {
+            let aim = small_ball(&light);
+            let view = RaysToBall::Bundle(Bundle::new(&light, aim).expect("the light is wider"));
+            let map = ProjectionMap::from_cells(&light, Chart::new(&light), &some_cells(), &[], &[view]);
+            for index in 0..1000 {
+                let Some(path) = map.emit(&light, &mut Sampler::new(3, Stream::GlobalPhoton, 0, index)) else {
+                    continue;
+                };
+                let Emission { origin, direction, flux } = path;
+                let distance = if matches!(light, Light::Parallel(_)) { 1.0 } else { 2.0 };
+                let density = map.path_density(&light, origin, origin + distance * direction) * distance * distance;
+                let expected =
+                    f64::from(emission::radiance(&light).x) * emission::etendue_ratio(&light, origin, direction);
+                assert!((f64::from(flux.x) * density / expected - 1.0).abs() < 1e-4, "{flux} at {origin}");
+            }
+        }
     }
 
     #[test]
     fn densities_integrate_to_one_and_cover_everything() {
         let cells: Vec<bool> = (0..SIDE * SIDE).map(|cell| cell % 37 == 0).collect();
-        let map = ProjectionMap::from_cells(Chart::new(&lamp()), &cells, &[], None);
+        let map = ProjectionMap::from_cells(&lamp(), Chart::new(&lamp()), &cells, &[], &[]);
         let n = 256;
         let mut reciprocal = 0.0;
         let mut mean = DVec3::ZERO;

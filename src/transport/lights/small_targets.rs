@@ -133,16 +133,13 @@ impl Targets {
 
 impl CellTree {
     /// The tree of a cell, and the cell's probability, for targets that cover these areas over an even density of probability per area of
-    /// the unit square; `None` where the cell meets no target.
-    pub(super) fn new(cell: Cell, targets: &Targets, areas: &[f64], even: f64) -> Option<(Self, f64)> {
+    /// the unit square; `None` for a cell whose density is even.
+    pub(super) fn new(cell: Cell, targets: &Targets, areas: &[f64], even: f64) -> (Option<Self>, f64) {
         let all = targets.met(cell, &targets.all());
-        if all.is_empty() {
-            return None;
-        }
         let mut tree = Self { nodes: Vec::new() };
         let density = |met: &[usize]| even + met.iter().map(|&t| targets.list[t].path_fraction / areas[t]).sum::<f64>();
         let (_, mass) = tree.add(cell, targets, &all, &density);
-        Some((tree, mass)).filter(|(tree, _)| !tree.nodes.is_empty())
+        (Some(tree).filter(|tree| !tree.nodes.is_empty()), mass)
     }
 
     /// Adds the nodes of a cell; returns the index of its node (0 for a leaf) and its probability.
@@ -246,7 +243,8 @@ mod tests {
         let targets = targets.map(|(x, y, radius, path_fraction)| Target { middle: at(x, y), radius, path_fraction });
         let targets = Targets { list: targets.to_vec(), place_from_square: DIRECTIONS };
         let areas = targets.covered_areas();
-        let (tree, mass) = CellTree::new(cell, &targets, &areas, 1.0).expect("the cell holds both");
+        let (tree, mass) = CellTree::new(cell, &targets, &areas, 1.0);
+        let tree = tree.expect("the cell holds both");
         let area = cell.side() * cell.side();
         assert!((mass - area - 0.6).abs() < 1e-12, "the even density and both fractions: {mass}");
         let n = 128;
