@@ -82,7 +82,7 @@ impl World {
     }
 
     /// The hit on a primitive that coincides with another one at this point, and the primitive's geometric normal there.
-    fn touching(&self, primitive: u32, point: &SurfacePoint) -> Option<(Hit, DVec3)> {
+    pub(super) fn touching(&self, primitive: u32, point: &SurfacePoint) -> Option<(Hit, DVec3)> {
         let shape = &self.aggregate.primitives()[primitive as usize];
         let distance = self.rounding(point, point.hit.primitive).max(self.rounding(point, primitive));
         touching(shape, primitive, [point.position, point.n_geom], distance)

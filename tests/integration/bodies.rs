@@ -1,14 +1,13 @@
 //! Bodies of glass: what is around the camera, the lights and every path.
 
-use crate::support::{advanced, assert_near, mean, object, quad, render, scene, sphere, world};
+use crate::support::{advanced, assert_near, mean, object, quad, render, scene, sphere};
 use patchlight::engine::Session;
 use patchlight::film::LinearImage;
 use patchlight::transport::Component;
-use patchlight::world::warnings;
 use std::f64::consts::PI;
 
 /// A camera, and a material of glass with this name for each index of refraction.
-fn glass(position: [f64; 3], materials: &[(&str, f64, f64)]) -> String {
+pub(crate) fn glass(position: [f64; 3], materials: &[(&str, f64, f64)]) -> String {
     let film = "[film]\nwidth = 24\nheight = 24\n";
     let camera = format!("[camera]\nposition = {position:?}\ntarget = [0, 0, 0]\nfov_y = 40\n{film}");
     materials.iter().fold(camera, |text, (name, ior, absorption)| {
@@ -21,7 +20,7 @@ fn glass(position: [f64; 3], materials: &[(&str, f64, f64)]) -> String {
 const FURNACE: &str = "[render]\nmax_bounces = 400\nbackground = [1, 1, 1]\n";
 
 /// The faces of a box with normals to the outside, each with a material.
-fn box_of(name: &str, [low, high]: [[f64; 3]; 2], material: impl Fn(&str) -> &'static str) -> String {
+pub(crate) fn box_of(name: &str, [low, high]: [[f64; 3]; 2], material: impl Fn(&str) -> &'static str) -> String {
     let d = [0, 1, 2].map(|k| high[k] - low[k]);
     let (x, y, z) = ([d[0], 0.0, 0.0], [0.0, d[1], 0.0], [0.0, 0.0, d[2]]);
     let faces = [
@@ -190,73 +189,4 @@ fn a_mirroring_transform_keeps_the_outside_outside() {
     let plain = mean(&render(&format!("{head}{}", lens("")), 8));
     assert!(plain < 0.9, "it absorbs light: {plain}");
     assert_near(mean(&render(&format!("{head}{mirrored}"), 8)), plain, 1e-3, "mirrored");
-}
-
-/// The subjects and the faults of the warnings about a scene.
-fn faults(text: &str) -> Vec<String> {
-    let scene = scene(text).scene;
-    let found = warnings(&scene, &world(text));
-    found.into_iter().map(|warning| format!("{} {}", warning.subject, warning.fault)).collect()
-}
-
-#[test]
-fn faults_of_bodies_are_told_with_the_name_of_the_object() {
-    let head = glass([1.0, 2.0, 5.0], &[("g", 1.5, 0.0), ("h", 1.5, 0.0)]);
-    let whole = |material: &'static str| box_of("box", [[-1.0; 3], [1.0; 3]], move |_| material);
-    let told = |bodies: &str| faults(&format!("{head}{bodies}"));
-    assert_eq!(told(&whole("g")), Vec::<String>::new());
-    let open = whole("g").replace("edge_v = [0.0, 2.0, 0.0]\n", "edge_v = [0.0, 1.0, 0.0]\n");
-    assert!(told(&open)[0].contains("\"box left\"") && told(&open)[0].contains("has gaps"), "{:?}", told(&open));
-    let inside_out = whole("g").replacen(
-        "edge_u = [0.0, 0.0, 2.0]\nedge_v = [0.0, 2.0, 0.0]",
-        "edge_u = [0.0, 2.0, 0.0]\nedge_v = [0.0, 0.0, 2.0]",
-        1,
-    );
-    let told_inward = told(&inside_out);
-    assert_eq!(told_inward.len(), 1, "{told_inward:?}");
-    assert!(told_inward[0].starts_with("glass of object \"box left\" is inside out"), "{told_inward:?}");
-    let above = box_of("lid", [[-1.0, 1.0, -1.0], [1.0, 1.5, 1.0]], |_| "h");
-    assert!(told(&(whole("g") + &above))[0].contains("coincides with a face"), "{:?}", told(&(whole("g") + &above)));
-    let lamp = "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [0, 0, 0]\nintensity = [1, 1, 1]\n";
-    assert!(told(&(whole("g") + lamp))[0].starts_with("light \"lamp\" is inside of the glass \"g\""));
-    let white = "[[material]]\nname = \"white\"\ntype = \"diffuse\"\nalbedo = [1, 1, 1]\n";
-    let hidden = format!("{white}{lamp}{}", sphere("stone", [0.0; 3], 1.0, "white"));
-    assert!(told(&hidden)[0].contains("inside of the opaque object \"stone\""), "{:?}", told(&hidden));
-    let in_glass = head.replace("position = [1.0, 2.0, 5.0]", "position = [0.5, 0.5, 0.5]");
-    assert!(faults(&format!("{in_glass}{}", whole("g")))[0].starts_with("the camera is inside of the glass"));
-}
-
-/// A pool's water needs no face at its walls.
-#[test]
-fn water_that_walls_close_has_no_gaps() {
-    let head = glass([1.0, 2.0, 5.0], &[("water", 1.33, 0.0)]);
-    let white = "[[material]]\nname = \"white\"\ntype = \"diffuse\"\nalbedo = [1, 1, 1]\n";
-    let basin =
-        box_of("basin", [[-1.0, -1.0, -1.0], [1.0, 0.0, 1.0]], |face| if face == "top" { "water" } else { "white" });
-    assert_eq!(faults(&format!("{head}{white}{basin}")), Vec::<String>::new());
-}
-
-/// A lamp just above water, nearer than rays resolve: its light is direct light or a caustic, not both.
-#[test]
-fn a_lamp_at_a_surface_counts_once() {
-    let camera = "[camera]\nposition = [0, -0.6, 0.01]\ntarget = [0, -1, 0]\nfov_y = 10\n[film]\nwidth = 8\nheight = 8
-        [[material]]\nname = \"grey\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
-        [[material]]\nname = \"water\"\ntype = \"glass\"\nior = 1.33\n";
-    let plane = |name: &str, y: f64, material: &str| {
-        object(name, "plane", material, &format!("point = [0, {y}, 0]\nnormal = [0, 1, 0]"))
-    };
-    for height in [1e-8, 1e-9, 1e-10, 0.0, -1e-9, -1e-8f64] {
-        let lamp = format!(
-            "[[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0.2, {height:?}, 0]\nintensity = [1, 1, 1]\n"
-        );
-        let text = [camera, &plane("floor", -1.0, "grey"), &plane("surface", 0.0, "water"), &lamp].concat();
-        let of = |component| {
-            let session = Session::prepare(&scene(&text), 1, None).expect("the scene can be prepared");
-            mean(&advanced(session.only(Some(component)), 8).film().image())
-        };
-        let (direct, caustic) = (of(Component::Direct), of(Component::Caustics));
-        assert!((direct > 0.1) != (caustic > 0.1), "from {height}: direct {direct}, caustic {caustic}");
-        // From below, some hundredths return from the surface as a caustic.
-        assert!(direct.min(caustic) < 0.01, "from {height}: direct {direct}, caustic {caustic}");
-    }
 }

@@ -22,5 +22,6 @@ mod sheets;
 mod skipping;
 mod support;
 mod texture;
+mod warnings;
 #[cfg(feature = "gui")]
 mod window;

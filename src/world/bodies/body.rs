@@ -1,3 +1,4 @@
+use super::contact::TOUCHING;
 use super::crossings::{crossings, point_of, spread};
 use crate::geometry::Primitive;
 use crate::math::{Aabb, Ray, Rgb, warp};
@@ -10,8 +11,11 @@ const TEST_LINES: usize = 128;
 /// Lines that may slip through the seams of a closed body. With none, the seams of a closed body could make it open; with more, larger gaps
 /// would pass as closed.
 const SLIPPED: usize = 1;
-/// Distance below which surfaces coincide, in diagonals of the body's box: above rounding.
-const NEAR: f64 = 1e-6;
+/// Area of a surface, over that of the largest one, below which no line is drawn through its points: at the rim of a film, rounding would
+/// tell what the line crosses.
+const NARROW: f64 = 1e-8;
+/// Distance, in diagonals of the body's box, at which a ray from a surface may hit this surface again: above rounding.
+const SELF: f64 = 1e-6;
 /// Rays that tell on which side of a closed surface a point is. An odd number has a majority. With fewer, rays through seams
 /// could decide; more would take time after each edit.
 const VOTES: usize = 9;
@@ -70,6 +74,11 @@ impl Body {
             <= SLIPPED
     }
 
+    /// Whether the body has an inside without gaps.
+    pub(in crate::world) fn is_closed(&self) -> bool {
+        self.is_closed
+    }
+
     /// Whether the surfaces leave gaps, whichever way their normals point: lines meet them an odd number of times.
     pub(in crate::world) fn has_gaps(&self, primitives: &[Primitive]) -> bool {
         self.lines_with(primitives, |fronts| fronts.count() % 2 == 1) > SLIPPED
@@ -84,8 +93,11 @@ impl Body {
         if !self.bounds.min.is_finite() {
             return 0;
         }
+        let areas = self.primitives.iter().map(|&p| primitives[p as usize].bounds().half_area());
+        let narrow = NARROW * areas.clone().fold(0.0, f64::max);
+        let wide: Vec<u32> = areas.zip(&self.primitives).filter(|(area, _)| *area >= narrow).map(|(_, &p)| p).collect();
         let counted = |k: &usize| {
-            let through = &primitives[self.primitives[k % self.primitives.len()] as usize];
+            let through = &primitives[wide[k % wide.len()] as usize];
             point_of(through, spread(*k)).is_some_and(|(point, _)| {
                 let line = Ray { t_min: f64::NEG_INFINITY, ..Ray::new(point, warp::uniform_sphere(spread(k / 2))) };
                 is_counted(&mut self.crossings(&line, primitives).map(|(_, front)| front))
@@ -94,23 +106,33 @@ impl Body {
         (0..TEST_LINES).into_par_iter().filter(counted).count()
     }
 
-    /// The primitives of a body without gaps whose normals point to its inside.
+    /// The primitives of a body without gaps whose normals point to its inside: behind them is the outside of the body, before them not.
     pub(in crate::world) fn facing_inward(&self, primitives: &[Primitive]) -> Vec<u32> {
         let is_inward = |p: &&u32| {
             let votes = (0..VOTES).filter(|&k| {
                 point_of(&primitives[**p as usize], spread(k)).is_some_and(|(point, normal)| {
-                    // The surface itself is not in front of it, but one that coincides with it is.
-                    let near = NEAR * self.bounds.diagonal();
-                    let ahead = |other: u32| {
-                        let t_min = if other == **p { near } else { -near };
-                        crossings(&Ray { t_min, ..Ray::new(point, normal) }, &primitives[other as usize]).count()
-                    };
-                    self.primitives.iter().map(|&other| ahead(other)).sum::<usize>() % 2 == 1
+                    let depth = |direction| self.depth_beside(**p, point, direction, primitives);
+                    depth(normal) != 0 && depth(-normal) == 0
                 })
             });
             2 * votes.count() > VOTES
         };
         self.primitives.iter().filter(is_inward).copied().collect()
+    }
+
+    /// How often a path from far away enters the body without leaving it on its way to a point just beside a primitive.
+    fn depth_beside(&self, primitive: u32, point: DVec3, direction: DVec3, primitives: &[Primitive]) -> i32 {
+        let of = |&other: &u32| {
+            // The surface itself is not ahead, but one that coincides with it is.
+            let t_min = if other == primitive {
+                SELF * self.bounds.diagonal()
+            } else {
+                -TOUCHING * primitives[other as usize].magnitude().length()
+            };
+            let ray = Ray { t_min, ..Ray::new(point, direction) };
+            crossings(&ray, &primitives[other as usize]).map(|(_, front)| if front { -1 } else { 1 }).sum::<i32>()
+        };
+        self.primitives.iter().map(of).sum()
     }
 
     /// Whether a closed surface contains the point; almost never for an open one.

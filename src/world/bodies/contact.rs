@@ -11,7 +11,7 @@ use std::collections::HashMap;
 const TESTED: usize = 8;
 /// How near surfaces are that may be in contact, relative to their coordinates: no nearer than a ray starts off a surface that it leaves,
 /// else the ray would miss the second surface.
-const TOUCHING: f64 = 2.0 * SELF_HIT_OFFSET;
+pub(in crate::world) const TOUCHING: f64 = 2.0 * SELF_HIT_OFFSET;
 
 /// For surfaces of glass, the surfaces that coincide with them over an area, up to rounding.
 ///

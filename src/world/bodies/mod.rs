@@ -20,7 +20,7 @@ mod surroundings;
 
 pub use body::Body;
 pub use contact::Contacts;
-pub(super) use contact::touching;
+pub(super) use contact::{TOUCHING, touching};
 pub(super) use crossings::{point_of, spread};
 pub(super) use group::bodies;
 pub use light_media::LightMedia;

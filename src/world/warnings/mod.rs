@@ -1,0 +1,190 @@
+//! Faults of a scene that can be rendered: glass that is open or inside out, lights and cameras inside of solids.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `edges` | edges of glass around which light goes |
+//! | `enclosure` | opaque surfaces that enclose a point |
+
+mod edges;
+mod enclosure;
+
+use super::World;
+use super::bodies::{Body, point_of, spread};
+use super::prepare::light;
+use crate::math::{Ray, Rgb, warp};
+use crate::scene::Scene;
+use edges::free_edge;
+use enclosure::Enclosure;
+use glam::DVec3;
+
+/// Rays into a body that tell whether walls close it. Fewer would leave gaps of a few percent to chance; more would take time after each
+/// edit.
+const TEST_RAYS: usize = 256;
+/// Distance of the first hit of such a ray, in diagonals of the body's box: the ray does not hit its own surface again.
+const LEAST_STEP: f64 = 1e-9;
+/// Rays that may find a way out of a body without a warning, 3 %. With fewer, rays through the seams of walls would warn of closed rooms;
+/// with more, larger gaps would pass.
+const MOST_LEAKING: usize = TEST_RAYS / 32;
+
+/// A fault of a scene that can be rendered, but is likely not meant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// The object, the light or the camera, with its name.
+    pub subject: String,
+    /// The fault, and its effect on the picture.
+    pub fault: String,
+    /// How to mend it.
+    pub remedy: String,
+}
+
+/// The warnings about a scene and its world.
+pub fn warnings(scene: &Scene, world: &World) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    world.bodies.iter().for_each(|body| of_body(scene, world, body, &mut warnings));
+    of_contacts(scene, world, &mut warnings);
+    of_camera(scene, world, &mut warnings);
+    for named in scene.lights.iter().filter(|named| light(named).power() != Rgb::ZERO) {
+        let (light, subject) = (light(named), format!("light \"{}\"", named.name));
+        if !light.is_outside() {
+            of_light(scene, world, subject, light.center(), &mut warnings);
+        }
+    }
+    warnings
+}
+
+/// The nearest primitive that a ray hits and that is not passed, and whether the ray comes from its front; `None` for a miss. The ray goes
+/// straight on through primitives that are passed, but not through primitives that coincide with them.
+fn nearest_except(world: &World, ray: &Ray, is_passed: impl Fn(u32) -> bool) -> Option<(u32, bool)> {
+    let mut rest = *ray;
+    loop {
+        let hit = world.aggregate.closest_hit(&rest)?;
+        let point = world.surface_point(&rest, hit);
+        if !is_passed(hit.primitive) {
+            return Some((hit.primitive, point.front));
+        }
+        let mut coincident = world.contacts.of(hit.primitive).iter().filter(|&&other| !is_passed(other));
+        if let Some((touched, normal)) = coincident.find_map(|&other| world.touching(other, &point)) {
+            return Some((touched.primitive, normal.dot(ray.direction) < 0.0));
+        }
+        rest.t_min = hit.t;
+    }
+}
+
+impl Warning {
+    fn new(subject: impl Into<String>, fault: String, remedy: &str) -> Self {
+        Self { subject: subject.into(), fault, remedy: remedy.to_owned() }
+    }
+}
+
+/// The objects of a scene by their names, in words.
+fn objects(scene: &Scene, mut objects: Vec<u32>) -> String {
+    objects.dedup();
+    let names: Vec<String> = objects.iter().map(|&o| format!("\"{}\"", scene.objects[o as usize].name)).collect();
+    format!("{} {}", if names.len() == 1 { "object" } else { "objects" }, names.join(", "))
+}
+
+/// A camera inside of glass, or inside of an opaque solid without light.
+fn of_camera(scene: &Scene, world: &World, warnings: &mut Vec<Warning>) {
+    if let Some(body) = world.body(&world.camera_media) {
+        let fault = format!("is inside of the glass \"{}\" and sees through it", body.name);
+        warnings.push(Warning::new("the camera", fault, "move it out, unless that is meant"));
+    }
+    let camera = scene.camera.position;
+    let sees_a_lamp = || world.lights.iter().any(|light| !light.is_outside() && sees(world, camera, light.center()));
+    if world.lights.is_empty() || sees_a_lamp() {
+        return;
+    }
+    // A room that is one object, with a lamp in it, is no fault.
+    if let Some(solid) = Enclosure::around(world, camera)
+        && world.lights.iter().all(|light| light.is_outside() || !solid.contains(world, light.center()))
+    {
+        let solid = objects(scene, solid.objects);
+        let fault = format!("is inside of the opaque {solid}, without a light: the picture is black");
+        warnings.push(Warning::new("the camera", fault, "move it out, or put a light in"));
+    }
+}
+
+/// A light inside of glass, or inside of an opaque solid without the camera.
+fn of_light(scene: &Scene, world: &World, subject: String, center: DVec3, warnings: &mut Vec<Warning>) {
+    // A cavity of the index of air makes a hollow bulb.
+    if let Some(body) = world.body(&world.media_around(center)).filter(|body| !body.is_air()) {
+        let fault = format!("is inside of the glass \"{}\": all of its light comes out through the glass", body.name);
+        warnings.push(Warning::new(subject.clone(), fault, "move it out, unless that is meant"));
+    }
+    let camera = scene.camera.position;
+    if sees(world, center, camera) {
+        return;
+    }
+    // A lamp in a room that is one object, with the camera in it, is no fault.
+    if let Some(solid) = Enclosure::around(world, center).filter(|solid| !solid.contains(world, camera)) {
+        let fault = format!("is inside of the opaque {}: none of its light comes out", objects(scene, solid.objects));
+        warnings.push(Warning::new(subject, fault, "move it out, or leave an opening"));
+    }
+}
+
+/// Whether no opaque surface stands between two points.
+fn sees(world: &World, from: DVec3, to: DVec3) -> bool {
+    let ray = Ray { t_max: 1.0, ..Ray::new(from, to - from) };
+    nearest_except(world, &ray, |p| world.object_of(p).is_none() || world.body_of(p).is_some()).is_none()
+}
+
+/// The gaps of a body, and its objects with normals to the inside.
+fn of_body(scene: &Scene, world: &World, body: &Body, warnings: &mut Vec<Warning>) {
+    let primitives = world.aggregate.primitives();
+    let named =
+        |of: &[u32]| format!("glass of {}", objects(scene, of.iter().filter_map(|&p| world.object_of(p)).collect()));
+    let is_open = !body.is_closed() && body.has_gaps(primitives);
+    let free = free_edge(world, body);
+    if free.is_some() || is_open && leaks(world, body) {
+        let at = free
+            .and_then(|p| world.object_of(p))
+            .map_or(String::new(), |object| format!(" at the edge of \"{}\"", scene.objects[object as usize].name));
+        let fault =
+            format!("has gaps{at}: light that goes through a gap is taken to be on the other side of the glass");
+        let remedy = "close it with surfaces of glass or opaque walls; objects that bound one piece need the same `body`, \
+                      and glass of another body does not close it";
+        warnings.push(Warning::new(named(&body.primitives), fault, remedy));
+        return;
+    }
+    if is_open {
+        return;
+    }
+    let inward = body.facing_inward(primitives);
+    if !inward.is_empty() {
+        let fault = "is inside out: its normals point inward, so the space around it is taken for glass".to_owned();
+        let remedy = "exchange edge_u and edge_v of a quad, or reverse the order of the rows of each patch";
+        warnings.push(Warning::new(named(&inward), fault, remedy));
+    }
+}
+
+/// Whether light inside of an open body finds a way out that is not through its surface: past the walls around it.
+fn leaks(world: &World, body: &Body) -> bool {
+    let leaks = |k: &usize| {
+        let at = body.primitives[k % body.primitives.len()];
+        let Some((point, normal)) = point_of(&world.aggregate.primitives()[at as usize], spread(*k)) else {
+            return false;
+        };
+        let direction = warp::uniform_sphere(spread(k / 2));
+        let inward = -direction.dot(normal).signum() * direction;
+        let ray = Ray { t_min: LEAST_STEP * body.bounds.diagonal(), ..Ray::new(point, inward) };
+        let is_other_glass = |p: u32| world.body_of(p).is_some() && !body.primitives.contains(&p);
+        nearest_except(world, &ray, is_other_glass)
+            .is_none_or(|(primitive, front)| front && body.primitives.contains(&primitive))
+    };
+    (0..TEST_RAYS).filter(leaks).count() > MOST_LEAKING
+}
+
+/// Surfaces of one medium that coincide and belong to two bodies.
+fn of_contacts(scene: &Scene, world: &World, warnings: &mut Vec<Warning>) {
+    for (a, b) in world.contacts.pairs() {
+        let (Some(body), Some(other)) = (world.body_of(a), world.body_of(b)) else { continue };
+        let [p, q] = [body, other].map(|rank| &world.bodies[rank as usize]);
+        if body != other && (p.ior, p.absorption) == (q.ior, q.absorption) {
+            let names = [a, b].map(|k| world.object_of(k).map_or("", |o| &scene.objects[o as usize].name));
+            let fault =
+                format!("coincides with a face of \"{}\", of the same medium: the faces are invisible", names[1]);
+            let remedy = "leave both faces out, or give the objects the same `body`";
+            warnings.push(Warning::new(format!("object \"{}\"", names[0]), fault, remedy));
+        }
+    }
+}
