@@ -3,6 +3,7 @@
 use super::frame::Frame;
 use super::messages::Status;
 use crate::scene::SceneFile;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -55,7 +56,7 @@ impl Shared {
     /// Makes this the newest frame, and wakes the caller.
     pub(super) fn publish(&self, frame: Frame) {
         *lock(&self.newest) = Some(Arc::new(frame));
-        (self.wake_caller)();
+        self.wake();
     }
 
     /// The newest frame; `None` if it was taken before, or none was published yet.
@@ -72,8 +73,14 @@ impl Shared {
         if *current != status {
             *current = status;
             drop(current);
-            (self.wake_caller)();
+            self.wake();
         }
+    }
+
+    /// Wakes the caller. A panic of the caller's function is its own fault: it must not end the thread that renders, which would leave a
+    /// status behind that never changes. The panic hook has told of it.
+    fn wake(&self) {
+        let _panicked = catch_unwind(AssertUnwindSafe(|| (self.wake_caller)()));
     }
 }
 

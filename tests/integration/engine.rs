@@ -186,6 +186,17 @@ fn an_invalid_scene_gives_a_reason_and_the_next_scene_renders() {
     assert_eq!(frame_where(&engine, |frame| frame.iteration >= 1).generation, 2);
 }
 
+/// The thread that renders outlives a caller's function that panics, at a status as well as at a frame.
+#[test]
+fn a_panic_when_waking_the_caller_stops_nothing() {
+    let wake = || std::panic::resume_unwind(Box::new("the caller's fault"));
+    let engine = Engine::start(EngineSettings { threads: Some(2), seed: 1 }, wake).expect("threads");
+    engine.send(Command::Show(room(0.5)));
+    frame_where(&engine, |frame| frame.iteration >= 1);
+    engine.send(Command::Pause);
+    wait_for(|| (engine.status() == Status::Paused).then_some(()));
+}
+
 #[test]
 fn dropping_the_engine_ends_its_thread_soon() {
     let engine = engine();
