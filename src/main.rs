@@ -5,8 +5,25 @@ use patchlight::cli::{self, Arguments, CliError};
 use patchlight::scene::SceneFile;
 use std::{io::Write, process::ExitCode};
 
+/// Stack of the thread that runs the commands, bytes: whatever limit the shell sets, a deeply nested scene file fits.
+const STACK: usize = 8 << 20;
+
 fn main() -> ExitCode {
-    match cli::run(Arguments::parse(), open_window) {
+    let arguments = Arguments::parse();
+    // A window must open on the main thread.
+    if arguments.opens_window() {
+        return exit_code(cli::run(arguments, open_window));
+    }
+    let commands = std::thread::Builder::new().name("commands".to_owned()).stack_size(STACK);
+    match commands.spawn(move || exit_code(cli::run(arguments, open_window))) {
+        // A panic has been told by its hook; 101 is the exit code of one on the main thread.
+        Ok(thread) => thread.join().unwrap_or(ExitCode::from(101)),
+        Err(error) => exit_code(Err(CliError::Failed(format!("the system gave no thread to run on: {error}")))),
+    }
+}
+
+fn exit_code(result: Result<(), CliError>) -> ExitCode {
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(error) => {

@@ -18,6 +18,13 @@ pub struct Arguments {
     pub(super) command: Option<Command>,
 }
 
+impl Arguments {
+    /// Whether the command line asks for a window.
+    pub fn opens_window(&self) -> bool {
+        self.command.is_none()
+    }
+}
+
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Render a picture without a window

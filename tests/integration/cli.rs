@@ -529,3 +529,24 @@ fn help_and_version_are_printed() {
     assert!(stdout(&patchlight(dir.path(), &["--help"])).contains("render"));
     assert!(stdout(&patchlight(dir.path(), &["--version"])).starts_with("patchlight 0."));
 }
+
+/// The shell's limit of the stack, here 64 kB, binds only the main thread, where no command works.
+#[cfg(target_os = "linux")]
+#[test]
+fn commands_need_no_stack_of_the_shell() {
+    let dir = tempfile::tempdir().unwrap();
+    let deep = format!("version = 1\nname = {}{}\n", "[".repeat(20_000), "]".repeat(20_000));
+    std::fs::write(dir.path().join("deep.toml"), deep).unwrap();
+    let run = |arguments: &str| {
+        let line = format!("ulimit -s 64 && exec \"$0\" {arguments}");
+        let program = env!("CARGO_BIN_EXE_patchlight");
+        let output = std::process::Command::new("sh").args(["-c", &line, program]).current_dir(dir.path()).output();
+        output.unwrap().status.code()
+    };
+    assert_eq!(run("check deep.toml"), Some(2), "a message, no overflow");
+    assert_eq!(run("check teapot"), Some(0));
+    assert_eq!(run("render water --size 16x16 --iterations 1 -o out.png"), Some(0));
+    assert_eq!(run("export report -o out.bpt"), Some(0));
+    std::fs::write(dir.path().join("rays.csv"), "0,0,5,0,0,-1\n").unwrap();
+    assert!(run("intersect out.bpt rays.csv").is_some(), "no signal ended it");
+}
