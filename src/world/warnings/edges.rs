@@ -1,6 +1,6 @@
 //! Free edges of glass: light goes around them from the outside of a body to its inside.
 
-use super::nearest_except;
+use super::passing::nearest_except;
 use crate::geometry::Primitive;
 use crate::math::Ray;
 use crate::math::float::SELF_HIT_OFFSET;

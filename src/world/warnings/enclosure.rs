@@ -1,6 +1,6 @@
 //! Opaque surfaces that enclose a point, as a ball or a closed box of quads around a lamp.
 
-use super::nearest_except;
+use super::passing::nearest_except;
 use crate::math::{Ray, Rgb, warp};
 use crate::world::World;
 use crate::world::bodies::{Body, spread};

@@ -2,11 +2,13 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `passing` | rays that pass some primitives |
 //! | `edges` | edges of glass around which light goes |
 //! | `enclosure` | opaque surfaces that enclose a point |
 
 mod edges;
 mod enclosure;
+mod passing;
 
 use super::World;
 use super::bodies::{Body, point_of, spread};
@@ -16,6 +18,7 @@ use crate::scene::Scene;
 use edges::free_edge;
 use enclosure::Enclosure;
 use glam::DVec3;
+use passing::nearest_except;
 
 /// Rays into a body that tell whether walls close it. Fewer would leave gaps of a few percent to chance; more would take time after each
 /// edit.
@@ -50,24 +53,6 @@ pub fn warnings(scene: &Scene, world: &World) -> Vec<Warning> {
         }
     }
     warnings
-}
-
-/// The nearest primitive that a ray hits and that is not passed, and whether the ray comes from its front; `None` for a miss. The ray goes
-/// straight on through primitives that are passed, but not through primitives that coincide with them.
-fn nearest_except(world: &World, ray: &Ray, is_passed: impl Fn(u32) -> bool) -> Option<(u32, bool)> {
-    let mut rest = *ray;
-    loop {
-        let hit = world.aggregate.closest_hit(&rest)?;
-        let point = world.surface_point(&rest, hit);
-        if !is_passed(hit.primitive) {
-            return Some((hit.primitive, point.front));
-        }
-        let mut coincident = world.contacts.of(hit.primitive).iter().filter(|&&other| !is_passed(other));
-        if let Some((touched, normal)) = coincident.find_map(|&other| world.touching(other, &point)) {
-            return Some((touched.primitive, normal.dot(ray.direction) < 0.0));
-        }
-        rest.t_min = hit.t;
-    }
 }
 
 impl Warning {
