@@ -28,6 +28,7 @@ mod words;
 
 pub use args::Arguments;
 pub use error::CliError;
+pub use intersect::write_hits;
 
 use crate::scene::SceneFile;
 use args::Command;
