@@ -18,14 +18,10 @@ mod suite;
 
 use std::time::Instant;
 
-/// Rows that fail today; the table of `docs/stability.md` shows them.
-const KNOWN_FAULTS: [&str; 1] = ["line ends in which a .bpt file with comments reads"];
-
 /// Asserts the rows of a group.
 fn assert_holds(group: &str) {
     let (_, cases) = cases::GROUPS.iter().find(|(name, _)| *name == group).expect("a group");
-    let mut cases = cases();
-    cases.retain(|case| !KNOWN_FAULTS.contains(&case.name.as_str()));
+    let cases = cases();
     let rows = suite::rows(&cases, Instant::now(), |_, _, _| {});
     let failed: Vec<String> = rows.iter().filter(|row| !row.holds).map(suite::Row::to_string).collect();
     assert!(failed.is_empty(), "{} of {} rows failed:\n{}", failed.len(), rows.len(), failed.join("\n"));

@@ -101,11 +101,12 @@ struct Words<'a> {
 impl<'a> Words<'a> {
     fn new(text: &'a str) -> Self {
         let without_comment = |line: &'a str| line.split('#').next().unwrap_or_default();
-        let words = text
-            .lines()
+        // LF or CRLF end a line, and so does a CR alone.
+        let lines = || text.lines().flat_map(|line| line.trim_end_matches('\r').split('\r'));
+        let words = lines()
             .enumerate()
             .flat_map(move |(k, line)| without_comment(line).split_whitespace().map(move |word| (k + 1, word)));
-        Self { words: Box::new(words), line: 1, last_line: text.lines().count().max(1) }
+        Self { last_line: lines().count().max(1), words: Box::new(words), line: 1 }
     }
 
     fn next(&mut self) -> Option<(usize, &'a str)> {
@@ -152,6 +153,16 @@ mod tests {
         let nets = vec![net(), net().map(|p| p * 1e-300 + 1e5 / 3.0)];
         assert_eq!(read_bpt(&write_bpt(&nets)).unwrap(), nets);
         assert_eq!(read_bpt("0\n").unwrap(), vec![]);
+    }
+
+    #[test]
+    fn any_line_end_ends_a_comment_and_counts() {
+        let text = format!("# patches\n{}", write_bpt(&[net()]));
+        for end in ["\n", "\r\n", "\r"] {
+            assert_eq!(read_bpt(&text.replace('\n', end)).unwrap(), vec![net()], "{end:?}");
+            let error = read_bpt(&text.replace("3 3\n", "3 3\nx\n").replace('\n', end)).unwrap_err();
+            assert_eq!(error.line, 4, "{end:?}");
+        }
     }
 
     #[test]
