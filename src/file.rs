@@ -14,19 +14,28 @@ use tempfile::Builder;
 ///
 /// If the file cannot be read, has more than `limit` bytes, or is a folder, a pipe or a device, which may have no end.
 pub fn read_limited(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    // A file may grow, and some files of the system state a size of 0.
+    open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit {
+        return Err(io::Error::other(format!("it has more than {} MB, the most that is read", limit >> 20)));
+    }
+    Ok(bytes)
+}
+
+/// A file to be read.
+///
+/// # Errors
+///
+/// If the file cannot be opened, or is a folder, a pipe or a device, which may have no end.
+pub fn open(path: &Path) -> io::Result<File> {
     // Before the file is opened: opening a pipe waits for its other end.
     let metadata = fs::metadata(path)?;
     if !metadata.is_file() {
         let kind = if metadata.is_dir() { "a folder" } else { "a pipe or a device" };
         return Err(io::Error::other(format!("it is {kind}, expected a file")));
     }
-    let mut bytes = Vec::new();
-    // A file may grow, and some files of the system state a size of 0.
-    File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > limit {
-        return Err(io::Error::other(format!("it has more than {} MB, the most that is read", limit >> 20)));
-    }
-    Ok(bytes)
+    File::open(path)
 }
 
 /// The text of a file in UTF-8.

@@ -1,6 +1,6 @@
 //! The command line, and the texts of `--help`.
 
-use crate::{scene::SurfaceExport, transport::Component};
+use crate::{engine::MOST_ITERATIONS, scene::SurfaceExport, transport::Component};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::Deserialize;
 use std::{num::NonZeroUsize, path::PathBuf};
@@ -29,6 +29,8 @@ impl Arguments {
 pub(super) enum Command {
     /// Render a picture without a window
     Render(RenderArguments),
+    /// Merge checkpoints of consecutive iterations of one run, as if one run had rendered them all
+    Merge(MergeArguments),
     /// Measure the error against a reference picture over time
     Bench(BenchArguments),
     /// Validate a scene; print its plan: rendered and skipped work, with reasons
@@ -83,15 +85,50 @@ pub(super) struct RenderArguments {
     /// A scene file or the name of a built-in scene
     pub(super) scene: PathBuf,
     /// The picture file: .png with exposure and tone curve, or .exr with linear 32-bit floats
-    #[arg(short, long, value_name = "OUT.(png|exr)")]
-    pub(super) output: PathBuf,
+    #[arg(short, long, value_name = "OUT.(png|exr)", required_unless_present = "checkpoint")]
+    pub(super) output: Option<PathBuf>,
     #[command(flatten)]
     pub(super) budget: Budget,
     #[command(flatten)]
     pub(super) settings: RenderSettings,
+    #[command(flatten)]
+    pub(super) checkpoints: CheckpointArguments,
     /// Write statistics of the rendering to this JSON file
     #[arg(long, value_name = "FILE.json")]
     pub(super) stats: Option<PathBuf>,
+}
+
+/// The files by which renderings go on later or elsewhere.
+#[derive(Debug, Args)]
+pub(super) struct CheckpointArguments {
+    /// Write the film and all that the rendering needs to go on to this file: at the end, after Ctrl+C or `kill`, and
+    /// every minute
+    #[arg(long, value_name = "FILE")]
+    pub(super) checkpoint: Option<PathBuf>,
+    /// Write the checkpoint every S seconds
+    #[arg(long, value_name = "S", default_value_t = 60.0, requires = "checkpoint", value_parser = parse_positive, allow_negative_numbers = true)]
+    pub(super) checkpoint_seconds: f64,
+    /// Go on from this checkpoint: the film will be that of a rendering without a break, bit for bit. --seconds and
+    /// --iterations count from the beginning of the film
+    #[arg(long, value_name = "FILE")]
+    pub(super) resume: Option<PathBuf>,
+    /// Render with the plan (radii, samples) that this checkpoint's iterations measured, and measure no other. Without
+    /// it, --iterations A..B first renders the iterations before A, too, only for their measurements
+    #[arg(long, value_name = "FILE")]
+    pub(super) plan: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct MergeArguments {
+    /// Checkpoints of one run, in any order
+    #[arg(required = true, value_name = "FILM")]
+    pub(super) films: Vec<PathBuf>,
+    /// The picture file: .png with exposure and tone curve, or .exr with linear 32-bit floats
+    #[arg(short, long, value_name = "OUT.(png|exr)", required_unless_present = "checkpoint")]
+    pub(super) output: Option<PathBuf>,
+    /// Write the merged film to this checkpoint
+    #[arg(long, value_name = "FILE")]
+    pub(super) checkpoint: Option<PathBuf>,
 }
 
 /// The end of rendering: a time, a number of iterations, or an error; by default a time.
@@ -101,13 +138,20 @@ pub(super) struct Budget {
     /// Render for S seconds, from the first iteration on [default: 10]
     #[arg(long, value_name = "S", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) seconds: Option<f64>,
-    /// Render N iterations
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
-    pub(super) iterations: Option<u64>,
+    /// Render N iterations, or only iterations A to B of a run, which `patchlight merge` adds to the others
+    #[arg(long, value_name = "N|A..B", value_parser = parse_iterations)]
+    pub(super) iterations: Option<Iterations>,
     /// Render until the estimated RMSE, relative to the mean radiance, is below E: 0.02 is 2 %. The estimate is rough
     /// for small pictures
     #[arg(long, value_name = "E", value_parser = parse_positive, allow_negative_numbers = true)]
     pub(super) error: Option<f64>,
+}
+
+/// Iterations of a run, by the numbers of the first and the last one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Iterations {
+    pub(super) first: u64,
+    pub(super) last: u64,
 }
 
 impl Budget {
@@ -190,6 +234,14 @@ pub(super) struct ExportArguments {
     pub(super) steps: NonZeroUsize,
 }
 
+fn parse_iterations(text: &str) -> Result<Iterations, String> {
+    let number = |s: &str| s.parse().ok().filter(|n| (1..=MOST_ITERATIONS).contains(n));
+    let (first, last) = text.split_once("..").unwrap_or(("1", text));
+    let iterations = number(first).zip(number(last)).filter(|(first, last)| first <= last);
+    let iterations = iterations.map(|(first, last)| Iterations { first, last });
+    iterations.ok_or_else(|| "expected a number above 0 like 200, or two like 101..200".to_owned())
+}
+
 fn parse_steps(text: &str) -> Result<NonZeroUsize, String> {
     let steps = text.parse().ok().filter(|steps: &NonZeroUsize| steps.get() <= 1024);
     steps.ok_or_else(|| "expected a number from 1 to 1024".to_owned())
@@ -214,6 +266,15 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn iterations_are_a_number_or_a_range() {
+        assert_eq!(parse_iterations("200"), Ok(Iterations { first: 1, last: 200 }));
+        assert_eq!(parse_iterations("101..200"), Ok(Iterations { first: 101, last: 200 }));
+        for wrong in ["0", "0..5", "6..5", "5..", "..5", "1..2..3", "1-5", "99999999999999"] {
+            assert!(parse_iterations(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -1,4 +1,8 @@
-use crate::{engine::SessionError, film::ImageError, scene::SceneError};
+use crate::{
+    engine::{CheckpointError, SessionError},
+    film::ImageError,
+    scene::SceneError,
+};
 use std::io;
 
 /// Why a command failed.
@@ -16,6 +20,9 @@ pub enum CliError {
     /// The scene cannot be rendered.
     #[error(transparent)]
     Session(#[from] SessionError),
+    /// A checkpoint cannot be read or written.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// A signal ended the rendering; the picture so far was written.
     #[error("{message}")]
     Interrupted {
@@ -43,8 +50,14 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Interrupted { code, .. } => *code,
-            Self::Scene(SceneError::Write { .. }) | Self::Image(ImageError::Write { .. }) => 1,
-            Self::Usage(_) | Self::Scene(_) | Self::Image(_) | Self::Session(SessionError::Prepare(_)) => 2,
+            Self::Scene(SceneError::Write { .. })
+            | Self::Image(ImageError::Write { .. })
+            | Self::Checkpoint(CheckpointError::Write { .. }) => 1,
+            Self::Usage(_)
+            | Self::Scene(_)
+            | Self::Image(_)
+            | Self::Checkpoint(_)
+            | Self::Session(SessionError::Prepare(_)) => 2,
             Self::Session(SessionError::Threads(_) | SessionError::Memory { .. })
             | Self::Failed(_)
             | Self::Output(_) => 1,

@@ -6,20 +6,24 @@
 //! | `error` | [`CliError`] and the exit codes |
 //! | `words` | plurals |
 //! | `interrupt` | signals that ask the program to end |
-//! | `output` | writes the files of the commands |
+//! | `output`, `picture_format` | write the files of the commands |
+//! | `checkpoints` | checkpoints of `render`: begins, goes on, saves |
 //! | `rendering` | the thread pool, timed iterations |
 //! | `progress`, `statistics` | the progress bar and `--stats` of `render` |
-//! | `render`, `check`, `export` | the commands of these names |
+//! | `render`, `merge`, `check`, `export` | the commands of these names |
 //! | `intersect/`, `bench/` | the commands of these names |
 
 mod args;
 mod bench;
 mod check;
+mod checkpoints;
 mod error;
 mod export;
 mod interrupt;
 mod intersect;
+mod merge;
 mod output;
+mod picture_format;
 mod progress;
 mod render;
 mod rendering;
@@ -46,6 +50,7 @@ pub fn run(arguments: Arguments, open_window: impl FnOnce(SceneFile) -> Result<(
             open_window(SceneFile::find(scene)?)
         }
         Some(Command::Render(render)) => render::render(&render),
+        Some(Command::Merge(merge)) => merge::merge(&merge),
         Some(Command::Bench(bench)) => bench::bench(&bench),
         Some(Command::Check(check)) => check::check(&check),
         Some(Command::Intersect(intersect)) => intersect::intersect(&intersect),

@@ -19,3 +19,12 @@ pub(super) fn needs_folder(path: &Path) -> Result<(), CliError> {
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     write_whole(path, bytes).map_err(|e| CliError::Failed(format!("{}: cannot be written: {e}", path.display())))
 }
+
+/// Whether two paths lead to one file, which need not exist.
+pub(super) fn is_same_file(a: &Path, b: &Path) -> bool {
+    let resolved = |path: &Path| {
+        path.canonicalize()
+            .or_else(|_| folder(path).canonicalize().map(|at| at.join(path.file_name().unwrap_or_default())))
+    };
+    matches!((resolved(a), resolved(b)), (Ok(a), Ok(b)) if a == b)
+}

@@ -1,6 +1,7 @@
 use super::{args::Budget, words::counted};
 use crate::engine::Stats;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{Write, stderr};
 
 /// The length of the progress bar, in steps.
 const STEPS: u64 = 1000;
@@ -34,6 +35,14 @@ impl Progress {
     }
 }
 
+impl Progress {
+    /// Writes a line to stderr, above the bar.
+    pub(super) fn tell(&self, message: &str) {
+        // Where stderr cannot be written, nobody reads it.
+        self.bar.suspend(|| writeln!(stderr(), "{message}").ok());
+    }
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
@@ -43,7 +52,7 @@ impl Drop for Progress {
 /// The approximate fraction of the budget that is spent.
 fn fraction_done(budget: &Budget, stats: &Stats) -> f64 {
     match (budget.iterations, budget.error, stats.error_estimate) {
-        (Some(limit), _, _) => stats.iterations as f64 / limit as f64,
+        (Some(range), _, _) => stats.iterations as f64 / (range.last + 1 - range.first) as f64,
         // Errors fall about as 1 over the square root of time.
         (_, Some(limit), Some(estimate)) => (limit / estimate).powi(2),
         (_, Some(_), None) => 0.0,

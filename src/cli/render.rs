@@ -1,138 +1,133 @@
 use super::{
     CliError,
     args::{Budget, RenderArguments, RenderSettings},
+    checkpoints::Checkpoints,
     interrupt::Interrupt,
-    output::{needs_folder, write},
+    output::{is_same_file, needs_folder, write},
+    picture_format::PictureFormat,
     progress::Progress,
-    rendering::{advance, advance_unless, pool},
+    rendering::{advance_unless, pool},
     statistics::Statistics,
     words::counted,
 };
 use crate::{
-    engine::{Frame, Session},
-    file::folder,
-    film::{ToneMap, write_exr, write_png},
+    engine::{CheckpointError, Frame, Session},
     scene::SceneFile,
     transport::Component,
 };
 use cpu_time::ProcessTime;
 use std::{
+    fmt::Display,
     io::{self, Write, stderr},
-    path::Path,
 };
 
 /// `patchlight render`: renders a picture and writes it.
 pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
-    let format = Format::of(&arguments.output)?;
-    needs_folder(&arguments.output)?;
+    let format = arguments.output.as_deref().map(PictureFormat::of).transpose()?;
     needs_own_files(arguments)?;
-    arguments.stats.as_deref().map_or(Ok(()), needs_folder)?;
     let file = sized(SceneFile::find(&arguments.scene)?, &arguments.settings);
+    let mut checkpoints = Checkpoints::open(&file, arguments)?;
     let pool = pool(arguments.settings.threads)?;
     let interrupt = Interrupt::watch()?;
-    let (frame, cpu_seconds) = pool.install(|| render_frame(&file, arguments, &interrupt))?;
-    format.write(&arguments.output, &frame, &file)?;
+    let Rendered { frame, cpu_seconds, saved } =
+        pool.install(|| render_frame(&file, arguments, &mut checkpoints, &interrupt))?;
+    if let (Some(format), Some(path)) = (format, &arguments.output)
+        && frame.iteration > 0
+    {
+        let film = &file.scene.film;
+        format.write(path, &frame.image, (film.exposure, film.tone_curve))?;
+    }
     if let Some(path) = &arguments.stats {
         let statistics = Statistics::new(&frame, cpu_seconds, pool.current_num_threads());
         write(path, statistics.json()?.as_bytes())?;
     }
+    saved?;
+    let checkpoint = arguments.checkpoints.checkpoint.as_deref();
+    let output = arguments.output.as_deref().or(checkpoint).unwrap_or(&arguments.scene).display();
     match interrupt.signal() {
         Some((signal, code)) => {
             let iterations = counted(frame.stats.iterations, "iteration");
-            let message = format!("{}: {iterations}, ended early by {signal}", arguments.output.display());
-            Err(CliError::Interrupted { message, code })
+            let go_on = checkpoint.map_or(String::new(), |path| format!("; go on with --resume {}", path.display()));
+            Err(CliError::Interrupted {
+                message: format!("{output}: {iterations}, ended early by {signal}{go_on}"),
+                code,
+            })
         }
         None => {
             // The picture is written: a message that nobody can read is no failure.
-            report(&frame, &arguments.output).ok();
+            report(&frame, &output).ok();
             Ok(())
         }
     }
 }
 
-/// Fails before the rendering if the picture or the statistics would overwrite the scene or each other.
+/// Fails before the rendering if a file that it writes has no folder, or would overwrite the scene, a checkpoint or another result.
 fn needs_own_files(arguments: &RenderArguments) -> Result<(), CliError> {
-    let RenderArguments { scene, output, stats, .. } = arguments;
-    for written in [Some(output), stats.as_ref()].into_iter().flatten() {
-        if is_same_file(written, scene) {
-            return Err(CliError::Usage(format!("{}: is the scene, which would be lost", written.display())));
+    let RenderArguments { scene, output, stats, checkpoints, .. } = arguments;
+    let written = [(output, "picture"), (stats, "statistics"), (&checkpoints.checkpoint, "checkpoint")];
+    let written: Vec<_> = written.into_iter().filter_map(|(path, name)| Some((path.as_deref()?, name))).collect();
+    for (index, (path, name)) in written.iter().enumerate() {
+        needs_folder(path)?;
+        if is_same_file(path, scene) {
+            return Err(CliError::Usage(format!("{}: is the scene, which would be lost", path.display())));
+        }
+        Checkpoints::must_not_overwrite(checkpoints, path)?;
+        if let Some((_, other)) = written[..index].iter().find(|(other, _)| is_same_file(path, other)) {
+            let file = path.display();
+            return Err(CliError::Usage(format!("{file}: is both the {other} and the {name}, expected two files")));
         }
     }
-    match stats {
-        Some(stats) if is_same_file(stats, output) => {
-            let file = stats.display();
-            Err(CliError::Usage(format!("{file}: is both the picture and the statistics, expected two files")))
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
-/// Whether two paths lead to one file, which need not exist.
-fn is_same_file(a: &Path, b: &Path) -> bool {
-    let resolved = |path: &Path| {
-        path.canonicalize()
-            .or_else(|_| folder(path).canonicalize().map(|at| at.join(path.file_name().unwrap_or_default())))
-    };
-    matches!((resolved(a), resolved(b)), (Ok(a), Ok(b)) if a == b)
+/// The result of a rendering.
+struct Rendered {
+    frame: Frame,
+    cpu_seconds: f64,
+    /// Whether the checkpoint was written.
+    saved: Result<(), CheckpointError>,
 }
 
-/// The picture when the budget is spent, or after a signal; the seconds of processor time. The picture has at least one iteration.
+/// The picture when the budget is spent, or after a signal. The picture has at least one iteration, unless a signal ended the iterations
+/// before it, which are only measured.
 fn render_frame(
     file: &SceneFile,
     arguments: &RenderArguments,
+    checkpoints: &mut Checkpoints,
     interrupt: &Interrupt,
-) -> Result<(Frame, f64), CliError> {
+) -> Result<Rendered, CliError> {
     let RenderSettings { seed, only, .. } = arguments.settings;
-    let mut session = Session::prepare(file, seed, None)?.only(only.map(Component::from));
+    let session = Session::prepare(file, seed, None)?.only(only.map(Component::from));
+    let mut session = checkpoints.begin(session)?;
     let progress = Progress::new(arguments.budget);
     let start = ProcessTime::now();
-    let mut last = advance(&mut session);
-    while !is_spent(&arguments.budget, &session, last) && !interrupt.has_come() {
+    let mut last = 0.0;
+    while !is_spent(&arguments.budget, &session, last) {
+        let has_begun = session.part().rendered() > 0;
+        if has_begun && interrupt.has_come() {
+            break;
+        }
         progress.show(&session.stats());
-        last = advance_unless(&mut session, &|| interrupt.has_come());
+        last = advance_unless(&mut session, &|| has_begun && interrupt.has_come());
+        checkpoints.save_if_due(&session, &progress);
     }
     let cpu_seconds = start.elapsed().as_secs_f64();
-    Ok((session.frame(0), cpu_seconds))
+    Ok(Rendered { frame: session.frame(0), cpu_seconds, saved: checkpoints.save(&session) })
 }
 
 /// Whether the budget is spent. `last` is the time of the last iteration, in seconds: the next iteration, if it takes
 /// as long, must end within the budget.
 fn is_spent(budget: &Budget, session: &Session, last: f64) -> bool {
-    let iterations = session.iterations();
-    if let Some(limit) = budget.iterations {
-        return iterations >= limit;
+    if session.iterations() == 0 {
+        return false;
+    }
+    if let Some(iterations) = budget.iterations {
+        return session.part().film().last() >= iterations.last;
     }
     if let Some(limit) = budget.error {
         return session.reaches(limit);
     }
     session.seconds() + last > budget.seconds.unwrap_or(Budget::DEFAULT_SECONDS)
-}
-
-/// The file format of the image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    Png,
-    Exr,
-}
-
-impl Format {
-    fn of(path: &Path) -> Result<Self, CliError> {
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
-        match extension.as_str() {
-            "png" => Ok(Self::Png),
-            "exr" => Ok(Self::Exr),
-            _ => Err(CliError::Usage(format!("{}: expected a name that ends in .png or .exr", path.display()))),
-        }
-    }
-
-    fn write(self, path: &Path, frame: &Frame, file: &SceneFile) -> Result<(), CliError> {
-        let film = &file.scene.film;
-        match self {
-            Self::Png => write_png(path, &frame.image, &ToneMap::new(film.exposure, film.tone_curve))?,
-            Self::Exr => write_exr(path, &frame.image)?,
-        }
-        Ok(())
-    }
 }
 
 fn sized(mut file: SceneFile, settings: &RenderSettings) -> SceneFile {
@@ -143,11 +138,11 @@ fn sized(mut file: SceneFile, settings: &RenderSettings) -> SceneFile {
     file
 }
 
-fn report(frame: &Frame, output: &Path) -> io::Result<()> {
+fn report(frame: &Frame, output: &impl Display) -> io::Result<()> {
     let stats = &frame.stats;
     let mut err = stderr().lock();
     let iterations = counted(stats.iterations, "iteration");
-    writeln!(err, "{}: {iterations} in {:.1} s", output.display(), stats.seconds)?;
+    writeln!(err, "{output}: {iterations} in {:.1} s", stats.seconds)?;
     if let Some(missing) = stats.missing_light {
         writeln!(err, "{missing}")?;
     }
@@ -155,18 +150,4 @@ fn report(frame: &Frame, output: &Path) -> io::Result<()> {
         writeln!(err, "dropped {} that were not finite", counted(stats.dropped_samples, "sample"))?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_name_says_the_format() {
-        assert_eq!(Format::of(Path::new("a/b.PNG")).unwrap(), Format::Png);
-        assert_eq!(Format::of(Path::new("b.exr")).unwrap(), Format::Exr);
-        for wrong in ["b", "b.jpg", ".png", "b.png.txt"] {
-            assert!(Format::of(Path::new(wrong)).is_err(), "{wrong}");
-        }
-    }
 }

@@ -1,5 +1,7 @@
 //! The convergence rate of stratified samples, fitted to the measured noise.
 
+use serde::{Deserialize, Serialize};
+
 /// Convergence rates: the variance of the mean of `n` samples of a pixel falls like `n` to the negative power of one of these, or one in
 /// between: 1 in glossy reflections, 1.5 where an edge runs through the pixel \[Mitchell96\], up to 3 where the light is smooth and
 /// `n` a power of two \[Owen97\].
@@ -8,7 +10,7 @@ const RATES: [f64; 5] = [1.0, 1.5, 2.0, 2.5, 3.0];
 const UNBALANCED: usize = 1;
 
 /// Variances for each rate, from the difference between the first and the other samples of each pixel; sums over pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct ConvergenceRates {
     /// Variance of the mean of samples with weight 1.
     of_one: [f64; RATES.len()],

@@ -5,49 +5,56 @@ use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::transport::PixelSamples;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 use std::ops::{AddAssign, Sub};
 
-/// The film: sums over iterations. The sums of iterations 1 to n equal the merged sums of consecutive ranges of iterations.
-#[derive(Clone, Debug, PartialEq)]
+/// The film: sums over consecutive iterations of a run. The sums of iterations 1 to n equal the merged sums of consecutive ranges of
+/// iterations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FilmSums {
-    width: u32,
-    height: u32,
-    iterations: u64,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    /// Number of iterations of the run before the first one of the film.
+    pub(super) before: u64,
+    pub(super) iterations: u64,
     /// Sum of the weights of the iterations in the mean of photons.
-    weight: f64,
+    pub(super) weight: f64,
     /// Sums over all iterations. Empty before the first iteration: a scene that is edited again at once needs no film.
-    all: Vec<PixelSums>,
-    /// Sums over the first iterations, up to the last power of two before the present one. Their difference to the later iterations
+    pub(super) all: Vec<PixelSums>,
+    /// Sums over the first iterations, up to the last power of two before the present iteration of the run. Their difference to the later iterations
     /// tells the error. Every second iteration would not do: neighbours in a low-discrepancy sequence complement each other, and differ
     /// more than their mean errs.
-    first: Vec<PixelSums>,
-    first_weight: f64,
+    pub(super) first: Vec<PixelSums>,
+    pub(super) first_weight: f64,
     /// The differences between the halves of the first iterations.
-    halves: Option<Differences>,
+    pub(super) halves: Option<Differences>,
 }
+
+/// Most iterations of a run: the indices of its samples and paths stay below 2^64.
+pub const MOST_ITERATIONS: u64 = 1 << 40;
 
 /// Weight of the later iterations over the weight of the first iterations: from the first value on, the difference between the two sets
 /// begins to tell the noise, from the second on, it alone tells the noise. Fewer iterations are not representative.
 const TELLING_WEIGHTS: [f64; 2] = [0.25, 0.75];
 
 /// The differences between the first and the later iterations of a film.
-#[derive(Clone, Debug, PartialEq)]
-struct Differences {
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Differences {
     /// Mean squared noise of the mean over all iterations, over pixels and channels.
-    squared_noise: f64,
+    pub(super) squared_noise: f64,
     /// The noise of camera samples by convergence rate.
-    rates: ConvergenceRates,
+    pub(super) rates: ConvergenceRates,
 }
 
 /// Sums for a pixel, in double precision: single precision stalls after some ten million additions.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct PixelSums {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct PixelSums {
     /// Weighted sum of the radiance from photons.
-    photons: DVec3,
+    pub(super) photons: DVec3,
     /// Weighted sum of the means of camera samples.
-    samples: DVec3,
+    pub(super) samples: DVec3,
     /// Sum of the weights of camera samples.
-    samples_weight: f64,
+    pub(super) samples_weight: f64,
 }
 
 impl PixelSums {
@@ -88,9 +95,15 @@ impl FilmSums {
 
     /// A film of this many columns and rows of pixels, without iterations.
     pub fn new(width: u32, height: u32) -> Self {
+        Self::after(width, height, 0)
+    }
+
+    /// A film of this many columns and rows of pixels for the iterations of a run after the first `before` ones.
+    pub fn after(width: u32, height: u32, before: u64) -> Self {
         Self {
             width,
             height,
+            before,
             iterations: 0,
             weight: 0.0,
             all: Vec::new(),
@@ -109,7 +122,7 @@ impl FilmSums {
     pub fn commit(&mut self, weight: f64, photons: &[Rgb], samples: &[PixelSamples]) {
         debug_assert_eq!([photons.len(), samples.len()], [self.pixel_count(); 2], "an iteration covers the film");
         self.all.resize(self.pixel_count(), PixelSums::default());
-        if self.iterations.is_power_of_two() {
+        if self.last().is_power_of_two() {
             self.end_first();
         }
         for ((sums, photons), samples) in self.all.iter_mut().zip(photons).zip(samples) {
@@ -124,21 +137,8 @@ impl FilmSums {
         self.weight += weight;
     }
 
-    /// Adds the iterations of another film of the same size, which follow the iterations of this film.
-    pub fn merge(&mut self, other: &Self) {
-        debug_assert_eq!((other.width, other.height), (self.width, self.height), "films of one size");
-        if self.all.is_empty() {
-            self.clone_from(other);
-            return;
-        }
-        self.end_first();
-        self.all.iter_mut().zip(&other.all).for_each(|(sums, x)| *sums += *x);
-        self.iterations += other.iterations;
-        self.weight += other.weight;
-    }
-
     /// Ends the first iterations: the following ones are compared with them.
-    fn end_first(&mut self) {
+    pub(super) fn end_first(&mut self) {
         self.halves = self.differences();
         self.first.clone_from(&self.all);
         self.first_weight = self.weight;
@@ -147,6 +147,25 @@ impl FilmSums {
     /// Number of iterations in the film.
     pub fn iterations(&self) -> u64 {
         self.iterations
+    }
+
+    /// The number, in the run, of the first iteration of the film.
+    pub fn first(&self) -> u64 {
+        self.before + 1
+    }
+
+    /// The number, in the run, of the last iteration of the film.
+    pub fn last(&self) -> u64 {
+        self.before + self.iterations
+    }
+
+    /// Whether the film has this size, and one sum for each pixel.
+    pub(super) fn fits(&self, width: u32, height: u32) -> bool {
+        let sums = if self.iterations == 0 { 0 } else { self.pixel_count() };
+        (self.width, self.height) == (width, height)
+            && self.all.len() == sums
+            && (self.first.len() == sums || self.first.is_empty() && self.first_weight == 0.0)
+            && self.before.checked_add(self.iterations).is_some_and(|last| last <= MOST_ITERATIONS)
     }
 
     /// The positive part of the weighted mean over the iterations; black before the first.
@@ -207,6 +226,11 @@ impl FilmSums {
     }
 }
 
+/// The greatest power of two below a number; 0 for 0 and 1.
+pub(super) fn greatest_power_below(x: u64) -> u64 {
+    if x < 2 { 0 } else { 1 << (x - 1).ilog2() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -235,26 +259,6 @@ mod tests {
     /// One sample for each pixel, of this weight.
     fn samples(iteration: u64, weight: f32) -> Vec<PixelSamples> {
         (0..PIXELS).map(|index| pixel(1, value(iteration, index), weight)).collect()
-    }
-
-    #[test]
-    fn ranges_merge_to_the_whole() {
-        let mut whole = FilmSums::new(SIDE, SIDE);
-        let mut ranges = [whole.clone(), whole.clone()];
-        for i in 1..=9 {
-            let (weight, photons, samples) = (0.5 + i as f64, noise(i), samples(i, 1.0 + i as f32));
-            whole.commit(weight, &photons, &samples);
-            ranges[usize::from(i > 4)].commit(weight, &photons, &samples);
-        }
-        let [mut first, second] = ranges;
-        let mut nothing_yet = FilmSums::new(SIDE, SIDE);
-        nothing_yet.merge(&second);
-        assert_eq!(nothing_yet, second);
-        first.merge(&second);
-        assert_eq!(first.iterations(), 9);
-        for (a, b) in first.image().pixels.iter().zip(&whole.image().pixels) {
-            assert!((*a - *b).abs().max_element() <= 1e-6, "{a} against {b}");
-        }
     }
 
     #[test]

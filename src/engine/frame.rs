@@ -3,6 +3,7 @@
 use crate::film::LinearImage;
 use crate::transport::{Counters, PlanItem, PlanNote};
 use crate::world::Warning;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
@@ -84,7 +85,7 @@ impl fmt::Display for MissingLight {
 
 /// Wall-clock seconds of each pass, over all iterations. The camera and gather passes alternate on each thread; their time is the sum
 /// over the threads divided by the number of threads.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PassSeconds {
     /// Building trees, reading textures and planning, before the first iteration.
     pub prepare: f64,

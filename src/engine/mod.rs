@@ -9,7 +9,11 @@
 //! | `frame` | a picture and its statistics |
 //! | `convergence_rates` | how fast the noise of stratified samples falls |
 //! | `film_sums` | sums over iterations, and the error estimate |
+//! | `film_merge` | films of consecutive iterations become one film |
 //! | `pass_meter` | time and work of passes |
+//! | `film_part` | consecutive iterations with their measurements |
+//! | `run` | what must be equal for parts to belong to one run |
+//! | `checkpoint` | a part of a run in a file |
 //! | `iteration` | one iteration: the main loop of the algorithm |
 //! | `session` | the rendering of one scene |
 //! | `shared` | the state that the caller and the worker share |
@@ -17,24 +21,31 @@
 //! | `worker` | the worker thread |
 //! | `handle` | the engine as the caller sees it |
 
+mod checkpoint;
 mod convergence_rates;
 mod draft_pace;
+mod film_merge;
+mod film_part;
 mod film_sums;
 mod frame;
 mod handle;
 mod iteration;
 mod messages;
 mod pass_meter;
+mod run;
 mod session;
 mod shared;
 mod worker;
 
-pub use film_sums::FilmSums;
+pub use checkpoint::{Checkpoint, CheckpointError, CheckpointFile};
+pub use film_part::FilmPart;
+pub use film_sums::{FilmSums, MOST_ITERATIONS};
 pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, Stats};
 pub use handle::Engine;
 pub use iteration::iterate;
 pub use messages::{Command, EngineError, EngineSettings, Status};
 pub use pass_meter::PassMeter;
+pub use run::Run;
 pub use session::{BLACK_ITERATIONS, Session, SessionError};
 
 pub use crate::transport::{Counters, PlanItem, PlanNote};

@@ -1,12 +1,13 @@
 //! The rendering of one scene.
 
+use super::film_part::FilmPart;
 use super::film_sums::FilmSums;
-use super::frame::{Frame, MissingLight, PassSeconds, PlanSummary, Stats};
+use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
 use super::iteration::iterate;
 use super::pass_meter::{PassMeter, Work};
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Component, Contribution, Counters, FilmStatistics, PassInput, Plan, UnseenLight};
+use crate::transport::{Cancel, Component, Contribution, Counters, PassInput, Plan};
 use crate::world::{Camera, PrepareError, World, prepare, warnings};
 use std::sync::Arc;
 use std::time::Instant;
@@ -54,12 +55,7 @@ pub struct Session {
     plan: Plan,
     summary: Arc<PlanSummary>,
     seed: u64,
-    film: FilmSums,
-    /// `None` before the first iteration.
-    statistics: Option<FilmStatistics>,
-    counters: Counters,
-    passes: PassSeconds,
-    seconds: f64,
+    part: FilmPart,
 }
 
 impl Session {
@@ -75,29 +71,48 @@ impl Session {
         check_memory(&world.camera)?;
         let plan = Plan::new(&world);
         let summary = Arc::new(PlanSummary { notes: plan.notes.clone(), warnings: warnings(&file.scene, &world) });
-        let film = FilmSums::new(plan.camera.width, plan.camera.height);
-        let passes = PassSeconds { prepare: start.elapsed().as_secs_f64(), ..PassSeconds::default() };
-        Ok(Self {
-            world,
-            plan,
-            summary,
-            seed,
-            film,
-            statistics: None,
-            counters: Counters::default(),
-            passes,
-            seconds: 0.0,
-        })
+        let mut part = FilmPart::new(&plan);
+        part.passes.prepare = start.elapsed().as_secs_f64();
+        Ok(Self { world, plan, summary, seed, part })
     }
 
     /// Restricts the session to one component of the light, if one is given. Call this before the first iteration.
     pub fn only(mut self, component: Option<Component>) -> Self {
         if let Some(component) = component {
             self.plan = self.plan.only(component);
+            self.part.unseen_of_one = self.plan.unseen_light(1.0);
             let warnings = self.summary.warnings.clone();
             self.summary = Arc::new(PlanSummary { notes: self.plan.notes.clone(), warnings });
         }
         self
+    }
+
+    /// Begins the film with iteration `first` of the run. The iterations before it are rendered, too, because they measure the plan.
+    pub fn beginning_with(mut self, first: u64) -> Self {
+        self.part.film = FilmSums::after(self.plan.camera.width, self.plan.camera.height, first.saturating_sub(1));
+        self
+    }
+
+    /// Goes on where a part of the same run ended.
+    pub fn resuming(mut self, mut part: FilmPart) -> Self {
+        part.passes.prepare += self.part.passes.prepare;
+        self.plan = self.plan.with_measured(part.plan.clone());
+        self.part = part;
+        self
+    }
+
+    /// Renders the following iterations with the plan that another part of the run measured, and keeps that plan. No iteration before the
+    /// first one of the film is rendered.
+    pub fn keeping(mut self, measured: &FilmPart) -> Self {
+        self.part.plan = measured.plan.clone().kept();
+        self.plan = self.plan.with_measured(self.part.plan.clone());
+        self.part.rendered = self.part.film.last();
+        self
+    }
+
+    /// The iterations so far, to go on later or elsewhere.
+    pub fn part(&self) -> &FilmPart {
+        &self.part
     }
 
     /// The decisions of the plan before any measurement.
@@ -108,78 +123,47 @@ impl Session {
     /// Renders the next iteration and commits it to the film; `None` when cancelled, which does not change the film.
     pub fn advance(&mut self, cancel: Cancel) -> Option<()> {
         let start = Instant::now();
-        let Self { world, plan, film, statistics, seed, .. } = self;
-        let (seed, iteration) = (*seed, film.iterations() + 1);
+        let Self { world, plan, part, seed, .. } = self;
+        let iteration = part.rendered + 1;
         let meter = PassMeter::default();
-        let input = PassInput { world, plan, seed, iteration, cancel };
-        let refined = iterate(&input, &meter, |contribution| {
-            let new = || FilmStatistics::new(plan.camera.width, plan.camera.height);
-            commit(film, statistics.get_or_insert_with(new), plan, iteration, contribution)
-        });
-        self.seconds += start.elapsed().as_secs_f64();
+        let input = PassInput { world, plan, seed: *seed, iteration, cancel };
+        let refined = iterate(&input, &meter, |contribution| part.commit(plan, contribution));
+        self.part.seconds += start.elapsed().as_secs_f64();
         if let Some(refined) = refined? {
             self.plan = refined;
         }
         let Work { counters, seconds } = meter.work();
-        self.counters += counters;
-        self.passes += seconds;
+        self.part.counters += counters;
+        self.part.passes += seconds;
         Some(())
     }
 
     /// Number of iterations in the film.
     pub fn iterations(&self) -> u64 {
-        self.film.iterations()
+        self.part.film.iterations()
     }
 
     /// Whether the estimated error (RMSE over the mean) is known and at most this. A black picture has no error once
     /// [`BLACK_ITERATIONS`] found no light, or if there is no photon to wait for.
     pub fn reaches(&self, error: f64) -> bool {
-        let is_black = || self.iterations() >= BLACK_ITERATIONS || self.unseen_light().is_none();
-        self.may_estimate() && self.error_estimate().map_or_else(is_black, |estimate| estimate <= error)
-    }
-
-    /// Whether the iterations suffice to estimate the error.
-    fn may_estimate(&self) -> bool {
-        self.iterations() >= FilmSums::ESTIMATED_FROM && self.plan.knows_bias(self.iterations())
-    }
-
-    fn error_estimate(&self) -> Option<f64> {
-        if !self.may_estimate() {
-            return None;
-        }
-        let squared_bias = self.statistics.as_ref().map_or(0.0, FilmStatistics::squared_bias);
-        let unseen = self.unseen_light().map_or(0.0, |unseen| unseen.radiance);
-        self.film.error_estimate(squared_bias + unseen.powi(2))
-    }
-
-    /// The light that no photon path has brought yet; `None` without photons and before the first iteration.
-    fn unseen_light(&self) -> Option<UnseenLight> {
-        (self.film.weight() > 0.0).then(|| self.plan.unseen_light(self.film.weight()))?
-    }
-
-    /// Unseen light, if it makes up most of the error estimate.
-    fn missing_light(&self, error_estimate: Option<f64>) -> Option<MissingLight> {
-        let (UnseenLight { item, radiance }, mean) = (self.unseen_light()?, self.film.mean());
-        let fraction = (mean > 0.0).then(|| radiance / mean);
-        let dominates =
-            |fraction: f64| error_estimate.is_some_and(|estimate| 2.0 * fraction.powi(2) > estimate.powi(2));
-        fraction.is_none_or(dominates).then_some(MissingLight { item, fraction })
+        let is_black = || self.iterations() >= BLACK_ITERATIONS || self.part.unseen_light().is_none();
+        self.part.may_estimate() && self.part.error_estimate().map_or_else(is_black, |estimate| estimate <= error)
     }
 
     /// Rendering time of all iterations, cancelled ones included, seconds.
     pub fn seconds(&self) -> f64 {
-        self.seconds
+        self.part.seconds
     }
 
     /// The sums over all iterations.
     pub fn film(&self) -> &FilmSums {
-        &self.film
+        &self.part.film
     }
 
     /// The picture so far, black before the first iteration, as a frame of this generation.
     pub fn frame(&self, generation: u64) -> Frame {
-        let image = Arc::new(self.film.image());
-        self.frame_of(generation, image, self.film.iterations(), self.stats())
+        let image = Arc::new(self.part.film.image());
+        self.frame_of(generation, image, self.iterations(), self.stats())
     }
 
     /// A quick picture with every `coarseness`-th pixel each way, as a frame of this generation; `None` when cancelled. The film does
@@ -201,38 +185,19 @@ impl Session {
 
     /// Statistics of the rendering so far.
     pub fn stats(&self) -> Stats {
-        let error_estimate = self.error_estimate();
+        let error_estimate = self.part.error_estimate();
         Stats {
-            iterations: self.film.iterations(),
-            radius: self.plan.mean_radius(self.world.view.distance, self.film.iterations()),
+            iterations: self.iterations(),
+            radius: self.plan.mean_radius(self.world.view.distance, self.part.film.last()),
             error_estimate,
-            missing_light: self.missing_light(error_estimate),
-            ..stats(&self.counters, self.passes, self.seconds)
+            missing_light: self.part.missing_light(error_estimate),
+            ..stats(&self.part.counters, self.part.passes, self.part.seconds)
         }
     }
 
     fn frame_of(&self, generation: u64, image: Arc<LinearImage>, iteration: u64, stats: Stats) -> Frame {
         Frame { generation, draft: false, iteration, image, stats, plan: self.summary.clone() }
     }
-}
-
-/// Adds an iteration to the film and to the measurements; returns the refined plan where the schedule says so.
-fn commit(
-    film: &mut FilmSums,
-    statistics: &mut FilmStatistics,
-    plan: &Plan,
-    iteration: u64,
-    Contribution { photons, samples, differences }: &Contribution,
-) -> Option<Plan> {
-    rayon::join(
-        || film.commit(plan.weight(iteration), photons, samples),
-        || statistics.add(iteration, differences, samples),
-    );
-    let refined = plan.refined(iteration, statistics);
-    if refined.is_some() {
-        statistics.begin_refined();
-    }
-    refined
 }
 
 fn stats(counters: &Counters, passes: PassSeconds, seconds: f64) -> Stats {

@@ -1,3 +1,5 @@
+use serde::{Deserialize, Serialize};
+
 /// The size of the image, and how it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Film {
@@ -23,7 +25,7 @@ impl Default for Film {
 }
 
 /// The map from linear radiance to display values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum ToneCurve {
     /// The sRGB transfer function; clips at 1.
     #[default]

@@ -15,6 +15,7 @@
 //! | `load/`, `save/` | from text to a scene, and back |
 //! | `surface_scene` | the scene that shows the patches of a `.bpt` file |
 //! | `file/` | [`SceneFile`]: opens and saves scenes with the files that they name |
+//! | `fingerprint` | a number that tells scenes apart |
 //! | `surface_export` | [`SurfaceExport`]: patches as `.obj` or `.bpt` |
 
 mod bezier;
@@ -24,6 +25,7 @@ mod data;
 mod error;
 mod file;
 mod film;
+mod fingerprint;
 mod light;
 mod load;
 mod location;

@@ -1,11 +1,11 @@
 //! Work counters.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::iter::Sum;
 use std::ops::AddAssign;
 
 /// Numbers of rays, photons and other work of the passes. Tests read them to prove that needless work is skipped.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counters {
     /// Rays traced to the nearest surface.
     pub rays: u64,

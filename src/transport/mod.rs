@@ -47,5 +47,5 @@ pub use passes::{
     gather, global_photon_pass, lobe_samples,
 };
 pub use photons::{CausticPhotons, GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query, Splat};
-pub use plan::{CausticPlan, Component, Plan, PlanItem, PlanNote, Radii, UnseenLight};
+pub use plan::{CausticPlan, Component, MeasuredPlan, Plan, PlanItem, PlanNote, Radii, UnseenLight};
 pub use points::{Clearance, Facet, Fresnel, GlossyMis, VisiblePoint, fresnel};

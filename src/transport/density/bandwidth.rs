@@ -8,6 +8,7 @@
 use super::cells::Cells;
 use super::schedule;
 use crate::transport::photons::{MapKind, PerMap};
+use serde::{Deserialize, Serialize};
 
 /// Radius of the wider disc over that of the narrower one: lambda.
 pub(in crate::transport) const WIDER: f64 = 1.5;
@@ -67,7 +68,7 @@ impl std::ops::AddAssign for BandwidthDifference {
 }
 
 /// Sums over the measured differences of a cell.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Sums {
     count: u32,
     difference: f64,
@@ -105,7 +106,7 @@ impl Sums {
 }
 
 /// Differences measured by iterations between two refinements.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::transport) struct BandwidthDifferences {
     cells: Cells,
     maps: PerMap<Vec<Sums>>,
@@ -140,6 +141,20 @@ impl BandwidthDifferences {
         }
     }
 
+    /// Whether the differences are known for a film of this size.
+    pub(in crate::transport) fn fits(&self, width: u32, height: u32) -> bool {
+        let count = self.cells.count();
+        let fit = |sums: &Vec<Sums>| sums.len() == count;
+        self.cells == Cells::new(width, height)
+            && fit(&self.picture)
+            && MapKind::ALL.into_iter().all(|kind| fit(&self.maps[kind]))
+    }
+
+    /// Whether the iterations suffice to tell the bias from the noise.
+    pub(in crate::transport) fn tell_bias(&self) -> bool {
+        self.picture.iter().any(|sums| sums.count > 1)
+    }
+
     /// Mean square of the bias over pixels and channels, for a bias that is proportional to the squared radius and equal in all channels;
     /// 0 where noise hides it.
     pub(in crate::transport) fn squared_bias(&self) -> f64 {
@@ -151,7 +166,7 @@ impl BandwidthDifferences {
 }
 
 /// Measured radii of density estimates, for each map and cell of 2 x 2 pixels, as factors of the radii after one full iteration.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Bandwidth {
     cells: Cells,
     factors: PerMap<Vec<f32>>,
@@ -183,6 +198,14 @@ impl Bandwidth {
     /// The next bandwidth, by iterations that used this one.
     pub(in crate::transport) fn next(&self, differences: &BandwidthDifferences, total: f64) -> Self {
         Self::best(differences, total, |kind, cell| f64::from(self.factors[kind][cell]))
+    }
+
+    /// Whether the factors are for a film of this size.
+    pub(in crate::transport) fn fits(&self, width: u32, height: u32) -> bool {
+        let count = self.cells.count();
+        self.cells == Cells::new(width, height)
+            && self.least_caustic.len() == count
+            && MapKind::ALL.into_iter().all(|kind| self.factors[kind].len() == count)
     }
 
     /// The factor of a map's radius in a pixel.

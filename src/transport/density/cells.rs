@@ -1,13 +1,14 @@
 //! The film in cells of a few pixels, for which bandwidths are measured.
 
 use super::schedule;
+use serde::{Deserialize, Serialize};
 
 /// Pixels along a side of a cell. One pixel of each cell is measured, the same pixel until the next refinement: differences between
 /// pixels would count as noise, and sharp light would look smooth.
 const CELL: u32 = 2;
 
 /// The film in cells of a few pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Cells {
     width: u32,
     height: u32,

@@ -3,9 +3,11 @@
 use super::bandwidth::{BandwidthDifference, BandwidthDifferences};
 use super::sample_allocation::{FilmSamples, PixelSamples};
 use super::schedule;
+use serde::{Deserialize, Serialize};
+use std::ops::AddAssign;
 
 /// Measurements of the iterations so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FilmStatistics {
     /// Bandwidth differences of the iterations since the last refinement.
     pub(in crate::transport) differences: BandwidthDifferences,
@@ -19,10 +21,17 @@ pub struct FilmStatistics {
 }
 
 /// The root mean square of the bias over the film, times the weight of the iterations that have it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Bias {
     weighted: f64,
     weight: f64,
+}
+
+impl AddAssign for Bias {
+    fn add_assign(&mut self, other: Self) {
+        self.weighted += other.weighted;
+        self.weight += other.weight;
+    }
 }
 
 impl FilmStatistics {
@@ -37,12 +46,19 @@ impl FilmStatistics {
         }
     }
 
-    /// Adds the measurements of iteration `iteration` (from 1): both slices hold one value for each pixel of the film.
-    pub fn add(&mut self, iteration: u64, differences: &[BandwidthDifference], samples: &[PixelSamples]) {
+    /// Adds the measurements of iteration `iteration` (from 1): both slices hold one value for each pixel of the film. The picture has the
+    /// bias of the iteration only where the film has the iteration, too.
+    pub fn add(
+        &mut self,
+        iteration: u64,
+        is_in_film: bool,
+        differences: &[BandwidthDifference],
+        samples: &[PixelSamples],
+    ) {
         self.differences.add(iteration, differences);
         self.samples.add(samples);
         if schedule::measures(iteration) {
-            self.bias.weight += schedule::size(iteration);
+            self.bias.weight += if is_in_film { schedule::size(iteration) } else { 0.0 };
             self.bias.weighted = self.bias.weight * self.differences.squared_bias().sqrt();
         }
     }
@@ -58,8 +74,24 @@ impl FilmStatistics {
     pub fn begin_refined(&mut self) {
         let [width, height] = self.size;
         self.differences = BandwidthDifferences::new(width, height);
-        self.bias_before.weight += self.bias.weight;
-        self.bias_before.weighted += self.bias.weighted;
-        self.bias = Bias::default();
+        self.bias_before += std::mem::take(&mut self.bias);
+    }
+
+    /// The measurements `next` of the iterations that follow, with the bias of all iterations.
+    pub fn followed_by(&self, mut next: Self) -> Self {
+        // A single iteration does not tell its bias: it has the mean bias of the others.
+        if !next.differences.tell_bias() {
+            next.bias = Bias::default();
+        }
+        next.bias_before += self.bias_before;
+        if self.differences.tell_bias() {
+            next.bias_before += self.bias;
+        }
+        next
+    }
+
+    /// Whether the measurements are those of a film of this size.
+    pub fn fits(&self, width: u32, height: u32) -> bool {
+        self.size == [width, height] && self.differences.fits(width, height) && self.samples.fits(width, height)
     }
 }

@@ -11,6 +11,7 @@
 use crate::math::Rgb;
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Most samples of a pixel in an iteration; a power of two. With more, a few noisy pixels take most of the samples of the film and the time
@@ -34,7 +35,7 @@ const MOST_STEPS: usize = 100;
 const NEIGHBOUR_PIXELS: usize = 1;
 
 /// Sums over the camera samples of a pixel.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct PixelSamples {
     /// Number of samples.
     pub count: u32,
@@ -87,7 +88,7 @@ impl PixelSamples {
 }
 
 /// Sums over the samples of all iterations, for each pixel.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::transport) struct FilmSamples {
     width: usize,
     pixels: Vec<PixelSamples>,
@@ -98,6 +99,11 @@ impl FilmSamples {
     pub(in crate::transport) fn new(width: u32, height: u32) -> Self {
         let pixels = width as usize * height as usize;
         Self { width: width as usize, pixels: vec![PixelSamples::default(); pixels] }
+    }
+
+    /// Whether the samples are those of a film of this size.
+    pub(in crate::transport) fn fits(&self, width: u32, height: u32) -> bool {
+        self.width == width as usize && self.pixels.len() == self.width * height as usize
     }
 
     /// Indices of the pixels in the square around a pixel, itself included, clipped to the film.
@@ -116,14 +122,14 @@ impl FilmSamples {
 }
 
 /// The samples of each pixel in the iterations from a refinement on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::transport) struct SampleAllocation {
     first_iteration: u64,
     pixels: Vec<PixelAllocation>,
 }
 
 /// The samples of one pixel in the iterations from a refinement on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct PixelAllocation {
     /// Index of the first sample in the pixel's sequence.
     first: u64,
@@ -162,6 +168,14 @@ impl SampleAllocation {
             }
         };
         Self { first_iteration: i + 1, pixels: counts(scale).enumerate().zip(&deviations_around).map(pixel).collect() }
+    }
+
+    /// Whether this allocation is for a film of `pixels` pixels and for the iteration `next` and later ones.
+    pub(in crate::transport) fn fits(&self, pixels: usize, next: u64) -> bool {
+        let is_count = |count: u8| count.is_power_of_two() && usize::from(count) <= MOST_SAMPLES;
+        self.pixels.len() == pixels
+            && self.first_iteration <= next
+            && self.pixels.iter().all(|pixel| is_count(pixel.count) && is_count(pixel.weight))
     }
 
     /// Weight of the mean of a pixel's samples of an iteration, in samples of the first iterations.

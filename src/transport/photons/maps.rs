@@ -3,6 +3,7 @@
 use super::photon::Photon;
 use super::photon_map::PhotonMap;
 use crate::transport::counters::{Counted, Counters};
+use serde::{Deserialize, Serialize};
 
 /// The photon maps of an iteration.
 #[derive(Clone, Debug, Default)]
@@ -68,7 +69,7 @@ impl MapKind {
 }
 
 /// One value for each of the [`Maps`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PerMap<T>([T; 4]);
 
 impl<T> PerMap<T> {

@@ -1,8 +1,10 @@
 //! The components of light in a picture.
 
+use serde::{Deserialize, Serialize};
+
 /// Component of the light in a picture. The components add up to the picture; the table in [`transport`](super::super) tells which
 /// paths belong to each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Component {
     /// Emission, the background and direct light: all light that camera paths find. Most light in Phong lobes belongs to it;
     /// [`GlossyMis`](super::super::GlossyMis) gives the rest to interreflection, more of it for more photons per pixel.

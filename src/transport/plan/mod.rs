@@ -18,6 +18,7 @@
 //! | `samples` | camera samples and paths of an iteration |
 //! | `unseen_light` | a bound of the light that no path has brought yet |
 //! | `new`, `draft`, `refined`, `only` | the four kinds of plans |
+//! | `measured` | the measured settings of a plan, for another plan of the same scene |
 
 mod caustics;
 mod component;
@@ -25,6 +26,7 @@ mod draft;
 mod interleaved_grid;
 mod interreflection;
 mod light_importance;
+mod measured;
 mod new;
 mod notes;
 mod only;
@@ -38,6 +40,7 @@ mod unseen_light;
 
 pub use component::Component;
 pub(in crate::transport) use interleaved_grid::InterleavedGrid;
+pub use measured::MeasuredPlan;
 pub use notes::{PlanItem, PlanNote};
 pub use radii::Radii;
 pub(in crate::transport) use radius::IterationRadii;

@@ -39,6 +39,7 @@ impl Plan {
             is_draft: false,
             bandwidth: None,
             samples: None,
+            is_kept: false,
         }
         .with_radiance_of_path(world)
     }

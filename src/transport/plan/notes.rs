@@ -3,10 +3,11 @@
 use crate::math::Rgb;
 use crate::transport::lights::light_sampler::MOST_SAMPLED;
 use crate::world::World;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// An item of work that a scene may need: a component of light or a piece of one, texture lookups, the background.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PlanItem {
     /// Direct light.
     DirectLight,

@@ -7,10 +7,13 @@ use std::sync::Arc;
 
 impl Plan {
     /// The plan for the iterations after `i`, with the camera samples and radii that suit the measurements; `None` where the schedule
-    /// keeps the plan.
+    /// keeps the plan. A kept plan is refined to itself.
     pub fn refined(&self, i: u64, statistics: &FilmStatistics) -> Option<Self> {
         if !schedule::refines_after(i) {
             return None;
+        }
+        if self.is_kept {
+            return Some(self.clone());
         }
         let next = |pixel| self.camera_samples(pixel, i).end;
         let samples =

@@ -40,6 +40,8 @@ pub struct Plan {
     pub(super) bandwidth: Option<Arc<Bandwidth>>,
     /// Measured sample counts, from the first refinement on.
     pub(super) samples: Option<Arc<SampleAllocation>>,
+    /// Whether refinements leave the plan as it is.
+    pub(super) is_kept: bool,
 }
 
 /// Mean radiance over the film that one path would bring after one full iteration, by component.

@@ -9,6 +9,7 @@ use super::paths::power;
 use super::render_plan::{Plan, RadianceOfPath};
 use crate::world::{Light, Surface, World};
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Number of paths whose light may be missing although none of them was found.
@@ -20,7 +21,7 @@ const SAMPLES_PER_PIXEL: f64 = 4.0;
 const RAYS_ALONG_SIDE: u32 = 16;
 
 /// Light of a component that may be missing in a picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnseenLight {
     /// Direct light of a beam, caustics or interreflection.
     pub item: PlanItem,
