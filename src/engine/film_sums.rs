@@ -26,6 +26,10 @@ pub struct FilmSums {
     /// more than their mean errs.
     pub(super) first: Vec<PixelSums>,
     pub(super) first_weight: f64,
+    /// Sums up to the power of two before that, in a film that begins later than the run: films before it may have to be compared with
+    /// them. Otherwise empty.
+    pub(super) earlier: Vec<PixelSums>,
+    pub(super) earlier_weight: f64,
     /// The differences between the halves of the first iterations.
     pub(super) halves: Option<Differences>,
 }
@@ -109,6 +113,8 @@ impl FilmSums {
             all: Vec::new(),
             first: Vec::new(),
             first_weight: 0.0,
+            earlier: Vec::new(),
+            earlier_weight: 0.0,
             halves: None,
         }
     }
@@ -140,6 +146,10 @@ impl FilmSums {
     /// Ends the first iterations: the following ones are compared with them.
     pub(super) fn end_first(&mut self) {
         self.halves = self.differences();
+        if self.before > 0 {
+            std::mem::swap(&mut self.earlier, &mut self.first);
+            self.earlier_weight = self.first_weight;
+        }
         self.first.clone_from(&self.all);
         self.first_weight = self.weight;
     }
@@ -164,7 +174,9 @@ impl FilmSums {
         let sums = if self.iterations == 0 { 0 } else { self.pixel_count() };
         (self.width, self.height) == (width, height)
             && self.all.len() == sums
-            && (self.first.len() == sums || self.first.is_empty() && self.first_weight == 0.0)
+            && [(&self.first, self.first_weight), (&self.earlier, self.earlier_weight)]
+                .into_iter()
+                .all(|(part, weight)| part.len() == sums || part.is_empty() && weight == 0.0)
             && self.before.checked_add(self.iterations).is_some_and(|last| last <= MOST_ITERATIONS)
     }
 

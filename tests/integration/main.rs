@@ -5,6 +5,7 @@
 mod bezier;
 mod bodies;
 mod built_in;
+mod checkpoints;
 mod cli;
 mod closed_forms;
 mod components;
