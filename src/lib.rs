@@ -151,6 +151,10 @@
 //! | iteration, pass | one full round of the algorithm; one stage of a round |
 //! | size of an iteration | its number of photon paths over the number of a full iteration; 1/8, 1/4, 1/2, then 1 |
 //! | plan | the settings of every pass for a scene: paths, radii, samples; new, draft, refined, or for only one component |
+//! | run | all iterations of one scene, size and seed; each has its number |
+//! | part | consecutive iterations of a run, with their measurements; parts can be merged |
+//! | kept plan | plan that no later measurement refines, so that parts of a run need no measurements of other parts |
+//! | checkpoint | a part in a file |
 //! | draft | quick first picture after an edit, with fewer pixels and photons |
 //! | generation | number of a scene that the engine was sent; grows with each edit |
 //! | band | whole rows of the film that the camera pass and the gather pass render independently |

@@ -19,7 +19,7 @@ use crate::file::{open, write_whole};
 use flate2::{Compression, Crc, read::DeflateDecoder, write::DeflateEncoder};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fs::File;
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, BufWriter, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -185,10 +185,10 @@ impl CheckpointFile {
 fn encoded(run: &Run, part: &FilmPart) -> io::Result<Vec<u8>> {
     let (first, last) = (part.film().first(), part.film().last());
     let head = postcard::to_allocvec(&Head { run: run.clone(), first, last }).map_err(io::Error::other)?;
-    let body = postcard::to_allocvec(part).map_err(io::Error::other)?;
-    let mut packed = DeflateEncoder::new(Vec::new(), Compression::fast());
-    io::copy(&mut &body[..], &mut packed)?;
-    let packed = packed.finish()?;
+    // Packed as it is encoded: both copies of a large film at once would take too much memory.
+    let packing = BufWriter::new(DeflateEncoder::new(Vec::new(), Compression::fast()));
+    let packing = postcard::to_io(part, packing).map_err(io::Error::other)?;
+    let packed = packing.into_inner().map_err(io::IntoInnerError::into_error)?.finish()?;
     let mut bytes = MAGIC.to_vec();
     bytes.extend(VERSION.to_le_bytes());
     bytes.extend((head.len() as u32).to_le_bytes());

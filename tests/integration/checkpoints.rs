@@ -1,6 +1,6 @@
 //! Checkpoints: films that go on, films that merge, and files that are no whole checkpoints.
 
-use crate::support::{advanced, patchlight};
+use crate::support::{advanced, ball, floor, head, patchlight, scene};
 use flate2::Crc;
 use patchlight::engine::{Checkpoint, CheckpointFile, FilmPart, FilmSums, Run, Session};
 use patchlight::scene::SceneFile;
@@ -12,9 +12,9 @@ use std::{
     time::Duration,
 };
 
-/// A small picture of the room with a mirror ball and a glass ball.
+/// A small picture of a mirror ball over a floor, with caustics and interreflection.
 fn room() -> SceneFile {
-    let mut file = SceneFile::built_in("cornell").unwrap();
+    let mut file = scene(&(head() + &ball("ball", 0.3, 0.5, "mirror") + &floor("grey")));
     (file.scene.film.width, file.scene.film.height) = (26, 19);
     file
 }
