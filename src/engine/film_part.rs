@@ -123,12 +123,19 @@ impl FilmPart {
 
     /// Estimated RMSE of the picture over its mean; `None` before there is an estimate.
     pub fn error_estimate(&self) -> Option<f64> {
-        if !self.may_estimate() {
-            return None;
-        }
+        self.may_estimate().then(|| self.film.error_estimate(self.squared_hidden()))?
+    }
+
+    /// RMSE of the picture over its mean that is seldom exceeded; `None` before there is an estimate.
+    pub(super) fn error_bound(&self) -> Option<f64> {
+        self.may_estimate().then(|| self.film.error_bound(self.squared_hidden()))?
+    }
+
+    /// Mean square of the errors that noise does not show.
+    fn squared_hidden(&self) -> f64 {
         let squared_bias = self.statistics.as_ref().map_or(0.0, FilmStatistics::squared_bias);
         let unseen = self.unseen_light().map_or(0.0, |unseen| unseen.radiance);
-        self.film.error_estimate(squared_bias + unseen.powi(2))
+        squared_bias + unseen.powi(2)
     }
 
     /// The light that no photon path has brought yet; `None` without photons and before the first iteration.

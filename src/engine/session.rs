@@ -143,11 +143,13 @@ impl Session {
         self.part.film.iterations()
     }
 
-    /// Whether the estimated error (RMSE over the mean) is known and at most this. A black picture has no error once
+    /// Whether a bound of the error (RMSE over the mean) is known and at most this. A black picture has no error once
     /// [`BLACK_ITERATIONS`] found no light, or if there is no photon to wait for.
     pub fn reaches(&self, error: f64) -> bool {
-        let is_black = || self.iterations() >= BLACK_ITERATIONS || self.part.unseen_light().is_none();
-        self.part.may_estimate() && self.part.error_estimate().map_or_else(is_black, |estimate| estimate <= error)
+        let is_black = || {
+            self.part.film.is_black() && (self.iterations() >= BLACK_ITERATIONS || self.part.unseen_light().is_none())
+        };
+        self.part.may_estimate() && self.part.error_bound().map_or_else(is_black, |bound| bound <= error)
     }
 
     /// Rendering time of all iterations, cancelled ones included, seconds.

@@ -80,7 +80,7 @@ fn target_ui(ui: &mut Ui, target: Option<f64>, commands: &mut Vec<AppCommand>) {
             .custom_formatter(|percent, _| target_text(percent))
             .custom_parser(|text| text.trim().trim_end_matches('%').trim().parse().ok());
         let field = ui.add(field).labelled_by(label.id);
-        if field.on_hover_text("Rendering stops at this error estimate; 0 never stops").changed() {
+        if field.on_hover_text("Rendering stops when the error is hardly above this; 0 never stops").changed() {
             commands.push(AppCommand::Target((percent > 0.0).then_some(0.01 * percent)));
         }
     });
