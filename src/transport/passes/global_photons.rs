@@ -35,6 +35,7 @@ pub fn global_photon_pass(input: &PassInput) -> Option<GlobalPhotons> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Rgb;
     use crate::transport::pass::Cancel;
     use crate::transport::plan::Plan;
     use crate::transport::testing::{self, lamp, sphere};
@@ -63,6 +64,28 @@ mod tests {
             paths.push(count as f64 / plan.global_paths[0] as f64);
         }
         assert_eq!(paths, [0.125, 0.25, 0.5, 1.0, 1.0]);
+    }
+
+    /// Diffuse and mirroring parts of different colours: the brightest channels of both are 1.4 of the light. After `k` surfaces, `0.9^k` of a
+    /// channel is left, of which the light that was only mirrored is not stored.
+    #[test]
+    fn colours_of_diffuse_and_mirroring_parts_do_not_move_the_flux() {
+        let material =
+            "[[material]]\nname = \"m\"\ntype = \"polished\"\nalbedo = [0.5, 0.4, 0]\nreflectance = [0.4, 0.5, 0.9]\n";
+        let room = [material, &sphere("room", [0.0; 3], 2.0, "m"), &lamp([0.3, -0.2, 0.5])].concat();
+        let world = testing::world(&format!("{room}[render]\nmax_bounces = 4\n"));
+        let plan = Plan::new(&world);
+        let mut flux = Rgb::ZERO;
+        for iteration in 4..12 {
+            let input = PassInput::uncancelled(&world, &plan, 1, iteration);
+            let found = global_photon_pass(&input).expect("never cancelled");
+            let photons = found.photons.iter().chain(&found.indirect_caustics);
+            flux += photons.map(|photon| photon.flux).sum::<Rgb>() / (8.0 * 4.0 * PI as f32);
+        }
+        for (channel, mirrored) in [(0, 0.4f32), (1, 0.5)] {
+            let expected: f32 = (1..4).map(|k| 0.9f32.powi(k) - mirrored.powi(k)).sum();
+            assert!((flux[channel] / expected - 1.0).abs() < 0.02, "{flux} instead of {expected} in {channel}");
+        }
     }
 
     /// Paths of successive iterations go on in the sequence of their light, so none is traced twice.

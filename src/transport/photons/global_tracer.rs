@@ -175,7 +175,15 @@ fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut 
     let before = path.flux.max_element();
     path.last_was_specular = false;
     let kept = |weight: Rgb| f64::from((path.flux * weight).max_element() / before);
+    let lobe = match scattering.lobe {
+        Lobe::Phong { specular, .. } => kept(specular),
+        Lobe::Mirror { reflectance } => kept(reflectance),
+        Lobe::Glass { .. } | Lobe::None => 0.0,
+    };
     let diffuse = kept(scattering.albedo);
+    // Of different colours, the brightest channels of both may be more than all light.
+    let all = (diffuse + lobe).max(1.0);
+    let (diffuse, lobe) = (diffuse / all, lobe / all);
     if choice < diffuse {
         path.flux *= scattering.albedo / diffuse as f32;
         path.was_scattered = true;
@@ -187,23 +195,19 @@ fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut 
     }
     match scattering.lobe {
         Lobe::None => None,
-        Lobe::Phong { specular, .. } => {
-            let probability = kept(specular);
-            if choice - diffuse >= probability {
+        Lobe::Phong { .. } => {
+            if choice - diffuse >= lobe {
                 return None;
             }
             let (direction, weight) = bsdf::sample_glossy(&scattering, n_shade, n_side, wi, u)?;
-            path.flux *= weight / probability as f32;
+            path.flux *= weight / lobe as f32;
             path.flux *= bsdf::shading_factor(wi, direction, n_side, n_shade) as f32;
             path.was_scattered = true;
             path.bounces += 1;
             Some(direction)
         }
-        Lobe::Mirror { reflectance } => {
-            let probability = kept(reflectance);
-            (choice - diffuse < probability)
-                .then(|| follow_specular(world, path, vertex, choice, probability))
-                .flatten()
+        Lobe::Mirror { .. } => {
+            (choice - diffuse < lobe).then(|| follow_specular(world, path, vertex, choice, lobe)).flatten()
         }
         Lobe::Glass { .. } => follow_specular(world, path, vertex, choice, 1.0),
     }
