@@ -25,6 +25,9 @@ const NEAREST_LAMP: f64 = 0.1;
 /// A larger ball takes more photons to places whose light rarely comes to what the camera sees.
 const MOST: f64 = 4.0;
 
+/// Least points that tell where most are.
+const LEAST_POINTS: usize = 8;
+
 /// The surface that a probe ray shows.
 struct Seen {
     film: DVec2,
@@ -64,13 +67,16 @@ pub(super) fn view(world: &World, target_distance: f64) -> View {
     }
 }
 
-/// The ball around most of some points, about their median by coordinate; `None` of nothing.
+/// The ball around most of some points, about their median by coordinate; `None` of fewer than [`LEAST_POINTS`], and where they are one.
 fn ball_around_most(points: Vec<DVec3>) -> Option<Sphere> {
+    if points.len() < LEAST_POINTS {
+        return None;
+    }
     let coordinate = |axis: usize| median(points.iter().map(|point| point[axis]));
     let center = DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?);
     let distances = points.iter().map(|point| point.distance(center));
     let radius = (MOST * median(distances.clone())?).min(distances.fold(0.0, f64::max));
-    Some(Sphere { center, radius })
+    (radius > 0.0).then_some(Sphere { center, radius })
 }
 
 fn view_of_nothing(camera: &Camera, target_distance: f64) -> View {

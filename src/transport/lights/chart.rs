@@ -3,7 +3,7 @@
 use super::cone::Cone;
 use super::small_targets::{Place, PlaceFromSquare};
 use crate::geometry::Sphere;
-use crate::math::octahedral;
+use crate::math::{octahedral, warp};
 use crate::world::{Light, ParallelRays};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -40,6 +40,18 @@ impl Chart {
         match self {
             Self::Directions { .. } => octahedral::square_from_direction(place),
             Self::Disc(_) => place.truncate() / flat_side() + 0.5,
+        }
+    }
+
+    /// A point of the plane of parallel rays from which a ray in this direction meets a ball, even over the ball's disc across them; the
+    /// ball's center in a chart of directions.
+    pub(super) fn point_before(&self, ball: Sphere, direction: DVec3, u: DVec2) -> DVec3 {
+        match self {
+            Self::Directions { .. } => ball.center,
+            Self::Disc(rays) => {
+                let within = ball.radius / rays.radius * warp::concentric_disc(u);
+                rays.point(rays.crossing(ball.center, direction) + within)
+            }
         }
     }
 

@@ -48,8 +48,8 @@ impl Probes<'_> {
         self.meet(&start, self.chart.place_from_square()((corner + within) / SIDE as f64), is_aim)
     }
 
-    /// How many of some rays to a ball meet such a surface first, and the number of rays. From each point of a lamp the rays aim at the ball
-    /// as seen from there.
+    /// How many of some rays to a ball meet such a surface first, and the number of rays. From each point of a lamp, and in each
+    /// direction of a sun, the rays aim at the ball.
     pub(super) fn count_met(
         &self,
         ball_index: u64,
@@ -82,7 +82,9 @@ impl Probes<'_> {
                     let height = 2.0 * (0.5 * seen.radius).sin().powi(2);
                     OrthonormalBasis::from_normal(seen.middle).world_from_local(warp::uniform_cone(u, height))
                 }
-                Start::Direction(_) => cone.middle + (cone.radius * warp::concentric_disc(u)).extend(0.0),
+                Start::Direction(direction) => {
+                    return self.meets(&self.ray(self.chart.point_before(ball, *direction, u), *direction), is_aim);
+                }
             };
             self.meet(&start, place, is_aim)
         };

@@ -78,6 +78,10 @@ impl ProjectionMap {
             .flatten()
             .filter_map(|ball| {
                 let rays = rays_to_view(light, &chart, ball, by_objects, SPREAD)?;
+                // Not beside a beam.
+                let list = rays.cone().map(Cone::target).into_iter().collect();
+                let targets = Targets { list, place_from_square: chart.place_from_square() };
+                targets.covered_areas().iter().all(|&area| area > 0.0).then_some(())?;
                 let (met, all) = probes.count_met(0, ball, rays, &aim);
                 (met as f64 > LEAST_MET * all as f64).then_some(rays)
             })
