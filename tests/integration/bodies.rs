@@ -1,6 +1,6 @@
 //! Bodies of glass: what is around the camera, the lights and every path.
 
-use crate::support::{advanced, assert_near, mean, object, quad, render, scene, sphere};
+use crate::support::{advanced, assert_near, box_of, mean, object, quad, render, scene, sphere};
 use patchlight::engine::Session;
 use patchlight::film::LinearImage;
 use patchlight::transport::Component;
@@ -18,21 +18,6 @@ pub(crate) fn glass(position: [f64; 3], materials: &[(&str, f64, f64)]) -> Strin
 
 /// A background of radiance 1, and a limit of bounces at which no light is lost.
 const FURNACE: &str = "[render]\nmax_bounces = 400\nbackground = [1, 1, 1]\n";
-
-/// The faces of a box with normals to the outside, each with a material.
-pub(crate) fn box_of(name: &str, [low, high]: [[f64; 3]; 2], material: impl Fn(&str) -> &'static str) -> String {
-    let d = [0, 1, 2].map(|k| high[k] - low[k]);
-    let (x, y, z) = ([d[0], 0.0, 0.0], [0.0, d[1], 0.0], [0.0, 0.0, d[2]]);
-    let faces = [
-        ("left", [low, z, y]),
-        ("right", [[high[0], low[1], low[2]], y, z]),
-        ("bottom", [low, x, z]),
-        ("top", [[low[0], high[1], low[2]], z, x]),
-        ("back", [low, y, x]),
-        ("front", [[low[0], low[1], high[2]], x, y]),
-    ];
-    faces.iter().map(|(face, edges)| quad(&format!("{name} {face}"), *edges, material(face))).collect()
-}
 
 fn assert_furnace(name: &str, text: &str) {
     let image = render(text, 32);

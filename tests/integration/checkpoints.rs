@@ -267,8 +267,10 @@ fn endless(dir: &Path, more: &[&str]) -> Child {
 #[test]
 fn a_signal_leaves_a_checkpoint_that_goes_on() {
     let dir = tempfile::tempdir().unwrap();
-    let run = endless(dir.path(), &["--checkpoint", "a.film"]);
-    std::thread::sleep(Duration::from_secs(1));
+    let run = endless(dir.path(), &["--checkpoint", "a.film", "--checkpoint-seconds", "0.001"]);
+    while !dir.path().join("a.film").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
     assert!(Command::new("kill").args(["-s", "TERM", &run.id().to_string()]).status().unwrap().success());
     let ended = run.wait_with_output().unwrap();
     let message = String::from_utf8_lossy(&ended.stderr);

@@ -1,8 +1,8 @@
 //! Glass bodies: photons in a closed body of Bezier patches stay on their side, and nested bodies keep all light.
 
-use crate::support::{ball, render};
+use crate::support::{ball, dented_cube, render};
 use glam::DVec3;
-use patchlight::geometry::bezier::{ControlNet, Patch};
+use patchlight::geometry::bezier::Patch;
 use patchlight::geometry::{Aggregate, Primitive};
 use patchlight::math::float::SELF_HIT_OFFSET;
 use patchlight::math::{Ray, Sampler, Stream, warp};
@@ -12,21 +12,9 @@ use std::sync::Arc;
 /// The most surface hits that a photon may have.
 const MAX_DEPTH: usize = 32;
 
-/// A rounded cube with dents: six faces whose edges run on a sphere, all normals outward. Rays meet it up to four times.
+/// The surfaces of the cube.
 fn body() -> Aggregate {
-    let face = |axis: usize, side: f64| {
-        let point = |i: usize, j: usize| {
-            let mut p = [0.0; 3];
-            p[axis] = side;
-            p[(axis + 1) % 3] = 2.0 / 3.0 * i as f64 - 1.0;
-            p[(axis + 2) % 3] = side * (2.0 / 3.0 * j as f64 - 1.0);
-            let inner = (1..=2).contains(&i) && (1..=2).contains(&j);
-            DVec3::from_array(p).normalize() * if inner && side < 0.0 { 0.6 } else { 1.3 }
-        };
-        ControlNet { points: std::array::from_fn(|i| std::array::from_fn(|j| point(i, j))) }
-    };
-    let patch = |k: usize| Primitive::Patch(Arc::new(Patch::new(face(k / 2, [-1.0, 1.0][k % 2]))));
-    Aggregate::new((0..6).map(patch).collect())
+    Aggregate::new(dented_cube().into_iter().map(|net| Primitive::Patch(Arc::new(Patch::new(net)))).collect())
 }
 
 /// Surface hits of photons, and photons that met a surface from the wrong side or left the closed body through no surface.

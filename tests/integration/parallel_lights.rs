@@ -1,6 +1,6 @@
 //! Suns and beams: parallel rays, from far away or from a disc.
 
-use crate::support::{advanced, assert_near, mean, object, quad, render, scene, session, sphere};
+use crate::support::{advanced, assert_near, box_of, mean, object, quad, render, scene, session, sphere};
 use patchlight::engine::Session;
 use patchlight::film::LinearImage;
 use patchlight::transport::{Cancel, Component};
@@ -120,20 +120,12 @@ fn a_narrow_beam_comes_through_glass_in_view() {
         [[material]]\nname = \"g\"\ntype = \"glass\"\nior = 1.5
         [[light]]\nname = \"b\"\ntype = \"beam\"\ncenter = [0, 3, 0]\ndirection = [0, -1, 0]\nradius = 0.3\npower = [1, 1, 1]\n";
     let floor = quad("floor", [[-8.0, -10.0, 8.0], [16.0, 0.0, 0.0], [0.0, 0.0, -16.0]], "white");
-    let box_of_glass = [
-        ("top", [[-1.0, 0.5, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]]),
-        ("bottom", [[-1.0, 0.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0]]),
-        ("left", [[-1.0, 0.0, -1.0], [0.0, 0.0, 2.0], [0.0, 0.5, 0.0]]),
-        ("right", [[1.0, 0.0, 1.0], [0.0, 0.0, -2.0], [0.0, 0.5, 0.0]]),
-        ("front", [[-1.0, 0.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.5, 0.0]]),
-        ("back", [[1.0, 0.0, -1.0], [-2.0, 0.0, 0.0], [0.0, 0.5, 0.0]]),
-    ];
     let light = |glass: &str, component| {
         let text = [head, &floor, glass].concat();
         let session = Session::prepare(&scene(&text), 1, None).expect("the scene can be prepared");
         mean(&advanced(session.only(Some(component)), 32).film().image())
     };
-    let glass = box_of_glass.map(|(name, place)| quad(name, place, "g") + "body = \"box\"\n").concat();
+    let glass = box_of("box", [[-1.0, 0.0, -1.0], [1.0, 0.5, 1.0]], |_| "g");
     let (free, through) = (light("", Component::Direct), light(&glass, Component::Caustics));
     assert!(free > 0.0, "the beam is in view");
     assert_near(through, free * 0.96 / 1.04, 0.08, "light through the box");

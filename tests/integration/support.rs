@@ -13,8 +13,11 @@ use std::process::{Command, Output};
 
 #[path = "../shared/scene_text.rs"]
 mod scene_text;
+#[path = "../shared/solids.rs"]
+mod solids;
 
 pub(crate) use scene_text::{HEAD, lamp, object, quad, sphere};
+pub(crate) use solids::{box_of, dented_cube};
 
 /// The text of a camera, a lamp above it and the materials white, grey, black and mirror.
 pub(crate) fn head() -> String {

@@ -1,7 +1,7 @@
 //! Warnings about scenes that can be rendered: wrong ones, and right ones beside them.
 
-use crate::bodies::{box_of, glass};
-use crate::support::{object, quad, scene, sphere, world};
+use crate::bodies::glass;
+use crate::support::{box_of, object, quad, scene, sphere, world};
 use patchlight::world::warnings;
 
 const NONE: Vec<String> = Vec::new();

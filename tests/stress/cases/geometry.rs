@@ -1,8 +1,8 @@
 //! Rays at awkward places of surfaces, and degenerate surfaces: G1 to G8.
 
 use crate::suite::{
-    Case, Tolerance, anomalies, ball_nets, box_of, camera, diffuse, direction, glass, mean, object, patch_ball,
-    picture, point_light, quad, sphere, unit,
+    Case, Tolerance, anomalies, ball_nets, box_of, camera, dented_cube, diffuse, direction, glass, mean, object,
+    patch_ball, picture, point_light, quad, sphere, unit,
 };
 use glam::DVec3;
 use patchlight::geometry::bezier::{ControlNet, Patch};
@@ -228,21 +228,6 @@ fn shapes() -> Vec<Case> {
     };
     cases.push(Case::faults("unsound hits of rays along axes, -0 and denormal directions", "G6", (RAYS, "rays"), axes));
     cases
-}
-
-/// A rounded cube with dents: six faces whose edges run on a sphere.
-fn dented_cube() -> Vec<ControlNet> {
-    let face = |axis: usize, side: f64| {
-        net(|i, j| {
-            let mut p = [0.0; 3];
-            p[axis] = side;
-            p[(axis + 1) % 3] = 2.0 / 3.0 * i as f64 - 1.0;
-            p[(axis + 2) % 3] = side * (2.0 / 3.0 * j as f64 - 1.0);
-            let inner = (1..=2).contains(&i) && (1..=2).contains(&j);
-            DVec3::from_array(p).normalize() * if inner && side < 0.0 { 0.6 } else { 1.3 }
-        })
-    };
-    (0..6).map(|k| face(k / 2, [-1.0, 1.0][k % 2])).collect()
 }
 
 /// Rays from outside to points on the edges of patches of a closed body, straight towards its middle and obliquely: how many meet no

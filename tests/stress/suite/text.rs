@@ -1,7 +1,10 @@
 #[path = "../../shared/scene_text.rs"]
 mod scene_text;
+#[path = "../../shared/solids.rs"]
+mod solids;
 
 pub(crate) use scene_text::{HEAD, lamp, object, quad, sphere};
+pub(crate) use solids::{box_of, dented_cube};
 
 /// A camera with a square film.
 pub(crate) fn camera(position: [f64; 3], target: [f64; 3], fov_y: f64, pixels: u32) -> String {
@@ -55,21 +58,6 @@ pub(crate) fn sphere_light(center: [f64; 3], radius: f64, radiance: f64) -> Stri
 pub(crate) fn quad_light([corner, edge_u, edge_v]: [[f64; 3]; 3], radiance: f64) -> String {
     let edges = format!("corner = {corner:?}\nedge_u = {edge_u:?}\nedge_v = {edge_v:?}");
     light("lamp", "quad", &format!("{edges}\nradiance = {:?}", [radiance; 3]))
-}
-
-/// The faces of a box with normals to the outside, each with a material; "left" is at the smallest x, "back" at the smallest z.
-pub(crate) fn box_of(name: &str, [low, high]: [[f64; 3]; 2], material: impl Fn(&str) -> &'static str) -> String {
-    let d = [0, 1, 2].map(|k| high[k] - low[k]);
-    let (x, y, z) = ([d[0], 0.0, 0.0], [0.0, d[1], 0.0], [0.0, 0.0, d[2]]);
-    let faces = [
-        ("left", [low, z, y]),
-        ("right", [[high[0], low[1], low[2]], y, z]),
-        ("bottom", [low, x, z]),
-        ("top", [[low[0], high[1], low[2]], z, x]),
-        ("back", [low, y, x]),
-        ("front", [[low[0], low[1], high[2]], x, y]),
-    ];
-    faces.iter().map(|(face, edges)| quad(&format!("{name} {face}"), *edges, material(face))).collect()
 }
 
 /// A ball of eight Bezier patches with outward normals, which is round within 3e-4 of its radius.
