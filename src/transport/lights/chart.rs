@@ -65,6 +65,13 @@ impl Chart {
         }
     }
 
+    /// Whether any place of a cone is in the chart. Beside parallel rays none may be.
+    pub(super) fn meets(&self, cone: &Cone) -> bool {
+        let square = self.square_from_place(cone.middle);
+        let nearest = self.place_from_square()(square.clamp(DVec2::ZERO, DVec2::ONE));
+        nearest.distance(cone.middle) <= cone.radius
+    }
+
     /// The places of paths from the center of the light that may meet a ball; `None` if they surround the light.
     pub(super) fn cone_of_light_center(&self, Sphere { center, radius }: Sphere) -> Option<Cone> {
         match self {

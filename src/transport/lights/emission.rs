@@ -72,9 +72,9 @@ pub(super) fn sample_origin(light: &Light, sampler: &mut Sampler) -> Origin {
     }
 }
 
-/// Etendue, steradians times square scene units, over the measure of a path's own choice: of a path that leaves a point of an area light in
-/// this direction (unit length) per steradian, if its point is even over the area; of parallel rays per area across them, if their
-/// direction is even over the cone. 0 where the light does not shine, and for lights without etendue.
+/// Factor from a density per etendue (steradians times square scene units) to the density in which paths are counted: for an area light per
+/// steradian in this direction (unit length), of paths whose first points are even over the light; for parallel rays per area across them, of
+/// paths whose directions are even over the cone. 0 where the light does not shine, and for lights without etendue.
 #[inline]
 pub(super) fn etendue_ratio(light: &Light, light_point: DVec3, direction: DVec3) -> f64 {
     match light {

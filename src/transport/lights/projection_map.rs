@@ -40,8 +40,8 @@ const MOST_BUNDLES: usize = 64;
 /// Radius of a ball around what the camera sees, over that of what the film shows: light through flat glass goes straight on, and is at most a
 /// little aside.
 const AROUND_VIEW: f64 = 2.0;
-/// Rays to mirrors and glass over rays to the view from which on half of the photons aim at the view. From much smaller values on the other
-/// photons, which are fewer then, would cost more than the aim brings.
+/// Rays to mirrors and glass over rays to the view from which on half of the photons aim at the view. With a much smaller value other
+/// caustics would lose more by that half than the view gains.
 const SPREAD: f64 = 16.0;
 /// Least fraction of the rays to the view that meet mirrors and glass first, for photons of caustics to aim there. At a smaller one hardly
 /// more of them would matter than of those that aim at all mirrors and glass.
@@ -78,10 +78,6 @@ impl ProjectionMap {
             .flatten()
             .filter_map(|ball| {
                 let rays = rays_to_view(light, &chart, ball, by_objects, SPREAD)?;
-                // Not beside a beam.
-                let list = rays.cone().map(Cone::target).into_iter().collect();
-                let targets = Targets { list, place_from_square: chart.place_from_square() };
-                targets.covered_areas().iter().all(|&area| area > 0.0).then_some(())?;
                 let (met, all) = probes.count_met(0, ball, rays, &aim);
                 (met as f64 > LEAST_MET * all as f64).then_some(rays)
             })
@@ -124,8 +120,7 @@ impl ProjectionMap {
         views: &[RaysToBall],
     ) -> Self {
         let count = is_marked.iter().filter(|&&is| is).count();
-        let total = (SIDE * SIDE) as f64;
-        let marked_area = count as f64 / total;
+        let marked_area = count as f64 / (SIDE * SIDE) as f64;
         let all_rays: Vec<RaysToBall> = objects.iter().chain(views).copied().collect();
         let list: Vec<Target> = all_rays.iter().filter_map(RaysToBall::cone).map(Cone::target).collect();
         let mut targets = Targets { list, place_from_square: chart.place_from_square() };
@@ -148,32 +143,12 @@ impl ProjectionMap {
         }
         let of_targets: f64 = fractions.iter().sum();
         let rest = 1.0 - DEFENSIVE_FRACTION - of_targets;
-        let probability = |cell: usize| {
-            let uniform = 1.0 / total;
-            match (is_marked[cell], count) {
-                (_, 0) => (1.0 - of_targets) * uniform,
-                (true, _) => rest / count as f64 + DEFENSIVE_FRACTION * uniform,
-                (false, _) => DEFENSIVE_FRACTION * uniform,
-            }
+        let even = |cell: usize| match (is_marked[cell], count) {
+            (_, 0) => 1.0 - of_targets,
+            (true, _) => rest / marked_area + DEFENSIVE_FRACTION,
+            (false, _) => DEFENSIVE_FRACTION,
         };
-        let mut trees = BTreeMap::new();
-        let mut rows = vec![0.0];
-        let mut cells = Vec::with_capacity(SIDE);
-        for row in 0..SIDE {
-            let mut cumulative = [0.0; SIDE + 1];
-            for column in 0..SIDE {
-                let index = row * SIDE + column;
-                let even = probability(index) * total;
-                let (tree, mass) = CellTree::new(cell_at(index), &targets, &areas_in_chart, even);
-                trees.extend(tree.map(|tree| (index, tree)));
-                cumulative[column + 1] = cumulative[column] + mass;
-            }
-            let sum = cumulative[SIDE];
-            cells.push(cumulative.map(|x| x / sum));
-            rows.push(rows[row] + sum);
-        }
-        let all = rows[SIDE];
-        rows.iter_mut().for_each(|x| *x /= all);
+        let (rows, cells, trees) = distribution(even, &targets, &areas_in_chart);
         // As if all paths went to the view: the others bring little light there.
         let of_views = areas.iter().zip(&fractions).skip(objects.len()).map(|(area, fraction)| area / fraction);
         let covered = of_views.reduce(f64::max).unwrap_or(marked_area + areas.iter().sum::<f64>());
@@ -293,6 +268,33 @@ impl ProjectionMap {
     pub fn covered(&self) -> f64 {
         self.covered
     }
+}
+
+/// The cumulative distributions of the rows and of the cells of each row, and the trees of the cells that targets refine, for targets that
+/// cover these areas over an even density in each cell, per area of the unit square.
+fn distribution(
+    even: impl Fn(usize) -> f64,
+    targets: &Targets,
+    areas: &[f64],
+) -> (Vec<f64>, Vec<[f64; SIDE + 1]>, BTreeMap<usize, CellTree>) {
+    let mut trees = BTreeMap::new();
+    let mut rows = vec![0.0];
+    let mut cells = Vec::with_capacity(SIDE);
+    for row in 0..SIDE {
+        let mut cumulative = [0.0; SIDE + 1];
+        for column in 0..SIDE {
+            let index = row * SIDE + column;
+            let (tree, mass) = CellTree::new(cell_at(index), targets, areas, even(index));
+            trees.extend(tree.map(|tree| (index, tree)));
+            cumulative[column + 1] = cumulative[column] + mass;
+        }
+        let sum = cumulative[SIDE];
+        cells.push(cumulative.map(|x| x / sum));
+        rows.push(rows[row] + sum);
+    }
+    let all = rows[SIDE];
+    rows.iter_mut().for_each(|x| *x /= all);
+    (rows, cells, trees)
 }
 
 /// Inverts a cumulative distribution: the index of the interval that holds `x`, the position of `x` in it (0 to 1), and its

@@ -85,7 +85,7 @@ pub(super) fn fraction_of_objects(world: &World, light: &Light, chart: &Chart, a
 }
 
 /// The rays to a ball around what matters in the view, if objects take a far greater fraction of the light's rays (`None`: they surround
-/// the light), at least `spread` times as great, so that photons are to aim at the view.
+/// the light), at least `spread` times as great, so that photons are to aim at the view. `None` also for a view beside a beam.
 pub(super) fn rays_to_view(
     light: &Light,
     chart: &Chart,
@@ -94,7 +94,8 @@ pub(super) fn rays_to_view(
     spread: f64,
 ) -> Option<RaysToBall> {
     let is_small_part = |rays: &RaysToBall| by_objects.unwrap_or(1.0) > spread * rays.fraction_of(light);
-    RaysToBall::new(light, chart, ball).filter(is_small_part)
+    RaysToBall::new(light, chart, ball)
+        .filter(|rays| is_small_part(rays) && rays.cone().is_none_or(|cone| chart.meets(cone)))
 }
 
 /// The ball around a box.
