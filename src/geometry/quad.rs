@@ -52,13 +52,18 @@ impl Quad {
         self.normal
     }
 
+    /// The distance along a unit direction from a point to the plane of the quad, scene units.
+    pub fn distance_along(&self, from: DVec3, direction: DVec3) -> f64 {
+        self.normal.dot(self.corner - from) / self.normal.dot(direction)
+    }
+
     /// The edges along u and v, which are the derivatives of the position.
     pub fn edges(&self) -> (DVec3, DVec3) {
         (self.edge_u, self.edge_v)
     }
 
     /// The dual basis: its dot products with a point in the plane, relative to the corner, are u and v.
-    pub(super) fn duals(&self) -> (DVec3, DVec3) {
+    pub fn duals(&self) -> (DVec3, DVec3) {
         (self.dual_u, self.dual_v)
     }
 

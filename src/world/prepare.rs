@@ -1,5 +1,6 @@
 use super::bodies::{self, LightMedia, Surroundings};
 use super::material::{Model, Relief, Source};
+use super::prepared::Precision;
 use super::probes;
 use super::sheets::{Place, welded_sheets};
 use super::texture::{self, TextureKey};
@@ -33,6 +34,8 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
     let bodies = bodies::bodies(scene, aggregate.primitives(), &mut surfaces);
     let magnitudes: Vec<DVec3> = aggregate.primitives().iter().map(Primitive::magnitude).collect();
     let contacts = Contacts::new(aggregate.primitives(), &surfaces, &magnitudes);
+    let precision = |(k, magnitude)| Precision { magnitude, contact: contacts.tolerance(k) };
+    let precisions = (0..).zip(magnitudes).map(precision).collect();
     let around = Surroundings { aggregate: &aggregate, surfaces: &surfaces, bodies: &bodies };
     let camera_media = around.media(scene.camera.position);
     let light_media = lights.iter().map(|light| LightMedia::at(light.test_points(), &around)).collect();
@@ -49,7 +52,7 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
         background: scene.render.background,
         max_bounces: scene.render.max_bounces,
         view: View::default(),
-        magnitudes,
+        precisions,
         textures: textures.decoded,
     };
     world.view = probes::view(&world, scene.camera.position.distance(scene.camera.target));

@@ -41,10 +41,19 @@ pub struct World {
     pub max_bounces: u32,
     /// What the camera sees.
     pub view: View,
-    /// The primitives' [magnitudes](crate::geometry::Primitive::magnitude), scene units.
-    pub(super) magnitudes: Vec<DVec3>,
+    /// For each primitive of the aggregate, how well its points are known.
+    pub(super) precisions: Vec<Precision>,
     /// The decoded images, for the next world.
     pub(super) textures: Vec<(TextureKey, Arc<Image>)>,
+}
+
+/// How well the points of a primitive are known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Precision {
+    /// The [magnitude](crate::geometry::Primitive::magnitude), scene units.
+    pub(super) magnitude: DVec3,
+    /// Distance at which surfaces that touch it are one with it, scene units; 0 without contact.
+    pub(super) contact: f64,
 }
 
 impl World {
@@ -174,11 +183,12 @@ impl World {
         point.position + point.n_geom * offset.copysign(direction.dot(point.n_geom))
     }
 
-    /// How far rounding may move a primitive at a point along the point's normal, scene units.
+    /// How far rounding may move a primitive, and the surfaces that touch it, at a point along the point's normal, scene units.
     #[inline]
     fn rounding(&self, point: &SurfacePoint, primitive: u32) -> f64 {
+        let Precision { magnitude, contact } = self.precisions[primitive as usize];
         // Points of a plane lie far beyond the point that defines it.
-        rounding(self.magnitudes[primitive as usize].max(point.position.abs()), point.n_geom)
+        rounding(magnitude.max(point.position.abs()), point.n_geom).max(contact)
     }
 }
 

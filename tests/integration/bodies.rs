@@ -1,6 +1,6 @@
 //! Bodies of glass: what is around the camera, the lights and every path.
 
-use crate::support::{advanced, assert_near, box_of, mean, object, quad, render, scene, sphere};
+use crate::support::{advanced, assert_near, box_of, mean, object, patches_of, quad, render, scene, sphere};
 use patchlight::engine::Session;
 use patchlight::film::LinearImage;
 use patchlight::transport::Component;
@@ -42,6 +42,21 @@ fn lossless_bodies_are_invisible_in_a_furnace() {
     let lower = box_of("lower", [[-0.7, -0.9, -1.0], [1.0, 0.0, 0.6]], |_| "a");
     assert_furnace("two that touch", &both(upper("b"), lower.clone()));
     assert_furnace("two of one medium that touch", &both(upper("a"), lower));
+}
+
+/// A box of quads under one of patches: apart by less than rounding of their size, wherever the origin is.
+#[test]
+fn quads_and_patches_in_contact_are_one_interface() {
+    let two = glass([0.1, 9.0, -0.05], &[("a", 1.3, 0.0), ("b", 1.8, 0.0)]).replace("fov_y = 40", "fov_y = 2");
+    for height in [0.0, 0.3, -7.7] {
+        for gap in [0.0, 3e-15, 1e-12, -3e-15, -1e-12] {
+            let lower = box_of("lower", [[-1.0, height - 0.5, -1.0], [1.0, height - gap, 1.0]], |_| "a");
+            let upper = box_of("upper", [[-0.8, height, -0.9], [0.8, height + 0.5, 0.7]], |_| "b");
+            let name = format!("{gap} apart at {height}");
+            assert_furnace(&name, &format!("{two}{FURNACE}{lower}{}", patches_of(&upper, "b")));
+            assert_furnace(&name, &format!("{two}{FURNACE}{}{upper}", patches_of(&lower, "a")));
+        }
+    }
 }
 
 /// A body may have several materials of one medium, named as a body or not.

@@ -34,6 +34,26 @@ pub(crate) fn floor(material: &str) -> String {
     object("floor", "plane", material, "point = [0, -1, 0]\nnormal = [0, 1, 0]")
 }
 
+/// One object of flat patches for the quads of a text.
+pub(crate) fn patches_of(quads: &str, material: &str) -> String {
+    let vector = |line: &str| -> [f64; 3] {
+        let (_, list) = line.split_once('[').expect("a list");
+        let numbers: Vec<f64> =
+            list.trim_end_matches(']').split(',').map(|x| x.trim().parse().expect("a number")).collect();
+        numbers.try_into().expect("three")
+    };
+    let of = |key: &str| quads.lines().filter(|line| line.starts_with(key)).map(vector).collect::<Vec<_>>();
+    let (corners, us, vs) = (of("corner"), of("edge_u"), of("edge_v"));
+    let patch = |k: usize| {
+        let point = |i: usize, j: usize| {
+            [0, 1, 2].map(|x| corners[k][x] + us[k][x] * i as f64 / 3.0 + vs[k][x] * j as f64 / 3.0)
+        };
+        format!("{:?}", [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| point(i, j))))
+    };
+    let patches: Vec<String> = (0..corners.len()).map(patch).collect();
+    object("patches", "bezier", material, &format!("patches = [{}]\n", patches.join(", ")))
+}
+
 /// The middle of the spot in [`spot_scene`].
 const SPOT: DVec3 = DVec3::new(2.0, 1.2, 0.0);
 

@@ -1,7 +1,7 @@
 //! Warnings about scenes that can be rendered: wrong ones, and right ones beside them.
 
 use crate::bodies::glass;
-use crate::support::{box_of, object, quad, scene, sphere, world};
+use crate::support::{box_of, object, patches_of, quad, scene, sphere, world};
 use patchlight::world::warnings;
 
 const NONE: Vec<String> = Vec::new();
@@ -103,10 +103,10 @@ fn glass_of_another_body_closes_no_water() {
     let sheet = quad("water", [[-1.0, 0.0, -1.0], [0.0, 0.0, 2.0], [2.0, 0.0, 0.0]], "water");
     let told = faults(&format!("{head}{walls}{sheet}"));
     assert!(told.len() == 1 && told[0].starts_with("glass of object \"water\" has gaps"), "{told:?}");
-    for depth in [1.0, 1.001] {
-        let whole = box_of("water", [[-depth; 3], [depth, 0.0, depth]], |_| "water");
-        assert_eq!(faults(&format!("{head}{walls}{whole}")), NONE, "{depth}");
-    }
+    let whole = |depth: f64| box_of("water", [[-depth; 3], [depth, 0.0, depth]], |_| "water");
+    assert_eq!(faults(&format!("{head}{walls}{}", whole(1.001))), NONE, "pushed into the glass");
+    let told = faults(&format!("{head}{walls}{}", whole(1.0)));
+    assert!(told.len() == 1 && told[0].contains("of another medium: no air is between them"), "{told:?}");
 }
 
 /// A film of quads and one of patches: however thin, it is neither open nor inside out.
@@ -116,28 +116,8 @@ fn thin_films_are_closed() {
         let quads = box_of("film", [[-1.0, 0.0, -1.0], [1.0, thickness, 1.0]], |_| "g");
         let head = water_and_glass();
         assert_eq!(faults(&format!("{head}{quads}")), NONE, "quads, {thickness}");
-        assert_eq!(faults(&format!("{head}{}", patches_of(&quads))), NONE, "patches, {thickness}");
+        assert_eq!(faults(&format!("{head}{}", patches_of(&quads, "g"))), NONE, "patches, {thickness}");
     }
-}
-
-/// One object of flat patches for the quads of a text.
-fn patches_of(quads: &str) -> String {
-    let vector = |line: &str| -> [f64; 3] {
-        let (_, list) = line.split_once('[').expect("a list");
-        let numbers: Vec<f64> =
-            list.trim_end_matches(']').split(',').map(|x| x.trim().parse().expect("a number")).collect();
-        numbers.try_into().expect("three")
-    };
-    let of = |key: &str| quads.lines().filter(|line| line.starts_with(key)).map(vector).collect::<Vec<_>>();
-    let (corners, us, vs) = (of("corner"), of("edge_u"), of("edge_v"));
-    let patch = |k: usize| {
-        let point = |i: usize, j: usize| {
-            [0, 1, 2].map(|x| corners[k][x] + us[k][x] * i as f64 / 3.0 + vs[k][x] * j as f64 / 3.0)
-        };
-        format!("{:?}", [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| point(i, j))))
-    };
-    let patches: Vec<String> = (0..corners.len()).map(patch).collect();
-    object("patches", "bezier", "g", &format!("patches = [{}]\n", patches.join(", ")))
 }
 
 /// A lid that floats 1 % of the width above its box.
@@ -148,7 +128,7 @@ fn narrow_gaps_are_found() {
     let lifted = |by: f64| {
         whole[..at].to_owned() + &whole[at..].replacen("[-1.0, 1.0, -1.0]", &format!("[-1.0, {:?}, -1.0]", 1.0 + by), 1)
     };
-    for (what, body) in [("quads", lifted(0.01)), ("patches", patches_of(&lifted(0.01)))] {
+    for (what, body) in [("quads", lifted(0.01)), ("patches", patches_of(&lifted(0.01), "g"))] {
         let told = faults(&(water_and_glass() + &body));
         assert!(told.len() == 1 && told[0].contains("has gaps at the edge of"), "{what}: {told:?}");
     }
@@ -198,13 +178,23 @@ fn a_camera_in_a_dark_solid_is_told() {
     assert_eq!(faults(&format!("{head}{dome}{}", point_lamp([0.0; 3]))), NONE, "a dome with a lamp");
 }
 
-/// A small face on a large one of the same medium is a fault; of another medium it is contact, as of water and its glass.
+/// A small face on a large one, and two bodies in one place: one warning for each two bodies.
 #[test]
-fn faces_that_coincide_in_part_are_told() {
+fn faces_that_coincide_are_told() {
     let head = glass([1.0, 2.0, 5.0], &[("g", 1.5, 0.0), ("h", 1.5, 0.0), ("dense", 1.7, 0.0)]);
     let lower = box_of("lower", [[-1.0; 3], [1.0, 0.0, 1.0]], |_| "g");
     let upper = |material: &'static str| box_of("upper", [[-0.3, 0.0, -0.3], [0.5, 0.8, 0.5]], move |_| material);
-    let told = faults(&format!("{head}{lower}{}", upper("h")));
-    assert!(told.len() == 1 && told[0].contains("coincides with a face of \"upper bottom\""), "{told:?}");
-    assert_eq!(faults(&format!("{head}{lower}{}", upper("dense"))), NONE);
+    let same = box_of("same", [[-1.0; 3], [1.0, 0.0, 1.0]], |_| "dense");
+    for (other, face, fault) in [
+        (upper("h"), "upper bottom", "of the same medium: the faces are invisible"),
+        (upper("dense"), "upper bottom", "of another medium: no air is between them"),
+        (same, "same", "as all faces do: only the medium of the body \"dense\" is seen"),
+    ] {
+        let told = faults(&format!("{head}{lower}{other}"));
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(
+            told[0].contains(&format!("coincides with a face of \"{face}")) && told[0].ends_with(fault),
+            "{told:?}"
+        );
+    }
 }

@@ -3,7 +3,8 @@
 use super::PhotonEmission;
 use super::emission;
 use super::light_sampler::LightSampler;
-use crate::geometry::Sphere;
+use super::spherical_quad::SphericalQuad;
+use crate::geometry::{Quad, Sphere};
 use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
 use crate::transport::counters::Counters;
 use crate::transport::points::{GlossyMis, MisVertex, Vertex, ViewingLobe, bsdf};
@@ -157,16 +158,18 @@ fn sample_light(light: &Light, from: DVec3, nearest: f64, sampler: &mut Sampler)
         }
         Light::Quad { quad, radiance } => {
             let u = sampler.next_2d();
-            let position = quad.position(u.x, u.y);
-            let offset = position - from;
-            let distance = offset.length();
-            let wi = offset.try_normalize()?;
-            let cos = -wi.dot(quad.normal());
-            if cos <= 0.0 {
-                return None;
-            }
-            let pdf = distance.max(nearest).powi(2) / (cos * quad.area());
-            Some(LightSample { position, distance, wi, weight: *radiance / pdf as f32, pdf: Some(pdf) })
+            let (offset, pdf) = if is_near(quad, from) {
+                let seen = SphericalQuad::new(quad, from)?;
+                let wi = seen.sample(u);
+                (quad.distance_along(from, wi) * wi, 1.0 / seen.solid_angle())
+            } else {
+                let offset = quad.position(u.x, u.y) - from;
+                (offset, pdf_area(quad, offset.normalize(), offset.length()))
+            };
+            let (distance, wi) = (offset.length(), offset.try_normalize()?);
+            let shines = wi.dot(quad.normal()) < 0.0 && distance.is_finite();
+            let weight = *radiance / pdf as f32;
+            shines.then_some(LightSample { position: from + offset, distance, wi, weight, pdf: Some(pdf) })
         }
         Light::Parallel(rays) => sample_parallel(rays, from, sampler),
     }
@@ -195,35 +198,48 @@ fn subtended(sphere: &Sphere, from: DVec3) -> Option<f64> {
 }
 
 /// Density per steradian with which [`DirectLight`] at `from` samples the point of a light that a ray with unit direction `wi` met at
-/// this distance, with this normal there. The probability that the light is drawn is left out on both sides of the balance
+/// this distance. The probability that the light is drawn is left out on both sides of the balance
 /// heuristic, whose weights still add up to 1.
-pub(in crate::transport) fn pdf_light(light: &Light, from: DVec3, wi: DVec3, distance: f64, n_light: DVec3) -> f64 {
+pub(in crate::transport) fn pdf_light(light: &Light, from: DVec3, wi: DVec3, distance: f64) -> f64 {
     match light {
         Light::Point { .. } | Light::Parallel(_) => 0.0,
         Light::Sphere { sphere, .. } => subtended(sphere, from).map_or(0.0, warp::pdf_uniform_cone),
-        Light::Quad { quad, .. } => distance * distance / (wi.dot(n_light).abs() * quad.area()),
+        Light::Quad { quad, .. } if is_near(quad, from) => {
+            SphericalQuad::new(quad, from).map_or(0.0, |seen| 1.0 / seen.solid_angle())
+        }
+        Light::Quad { quad, .. } => pdf_area(quad, wi, distance),
     }
+}
+
+/// Whether points of a quad differ so much in their distance to a point that directions are drawn evenly in the solid angle: drawn by area,
+/// few would find most of the light.
+fn is_near(quad: &Quad, from: DVec3) -> bool {
+    let (u, v) = quad.edges();
+    quad.position(0.5, 0.5).distance_squared(from) < u.length_squared() + v.length_squared()
+}
+
+/// Density per steradian of points drawn by area on a quad, of one in this unit direction at this distance.
+fn pdf_area(quad: &Quad, wi: DVec3, distance: f64) -> f64 {
+    distance * distance / (wi.dot(quad.normal()).abs() * quad.area())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Quad;
     use crate::math::chi_square::assert_has_density;
     use crate::math::{Stream, octahedral};
     use std::f64::consts::PI;
 
     /// Directions over the sphere towards a light that fills much of it, against [`pdf_light`] where a ray in that direction meets it.
-    fn assert_samples(light: &Light, meet: impl Fn(&Ray) -> Option<(f64, DVec3)>) {
+    fn assert_samples(light: &Light, meet: impl Fn(&Ray) -> Option<f64>) {
         let from = DVec3::new(0.1, 0.2, -0.1);
-        let pdf =
-            |wi: DVec3| meet(&Ray::new(from, wi)).map_or(0.0, |(t, normal)| pdf_light(light, from, wi, t, normal));
+        let pdf = |wi: DVec3| meet(&Ray::new(from, wi)).map_or(0.0, |t| pdf_light(light, from, wi, t));
         let sample = |sampler: &mut Sampler| {
             let LightSample { position, wi, weight, pdf: sampled, .. } = sample_light(light, from, 0.0, sampler)?;
-            let (t, normal) = meet(&Ray::new(from, wi)).unwrap_or(((position - from).length(), -wi));
+            let t = meet(&Ray::new(from, wi)).unwrap_or((position - from).length());
             assert!(position.distance(from + t * wi) < 1e-6, "the position is where the ray arrives");
             let sampled = sampled.expect("an area light");
-            assert!((sampled / pdf_light(light, from, wi, t, normal) - 1.0).abs() < 1e-6, "the density of the sample");
+            assert!((sampled / pdf_light(light, from, wi, t) - 1.0).abs() < 1e-6, "the density of the sample");
             assert!((f64::from(weight.x) * sampled - 2.0).abs() < 1e-5, "radiance over density");
             Some(octahedral::square_from_direction(wi))
         };
@@ -235,13 +251,13 @@ mod tests {
     fn samples_of_area_lights_have_their_density() {
         let radiance = Rgb::new(2.0, 1.0, 0.5);
         let sphere = Sphere { center: DVec3::new(0.5, 1.0, -0.2), radius: 0.6 };
-        assert_samples(&Light::Sphere { sphere, radiance }, |ray| {
-            let t = sphere.intersect(ray)?;
-            Some((t, (ray.at(t) - sphere.center).normalize()))
-        });
+        assert_samples(&Light::Sphere { sphere, radiance }, |ray| sphere.intersect(ray));
         // edge_u x edge_v points down, towards the point.
-        let quad = Quad::new(DVec3::new(-0.8, 0.9, -1.0), DVec3::new(2.0, 0.3, 0.0), DVec3::new(0.0, 0.1, 1.8));
-        assert_samples(&Light::Quad { quad, radiance }, |ray| Some((quad.intersect(ray)?.0, quad.normal())));
+        let near = Quad::new(DVec3::new(-0.8, 0.9, -1.0), DVec3::new(2.0, 0.3, 0.0), DVec3::new(0.0, 0.1, 1.8));
+        let far = Quad::new(DVec3::new(-0.8, 3.9, -1.0), DVec3::new(2.0, 0.3, 0.0), DVec3::new(0.0, 0.1, 1.8));
+        for quad in [near, far] {
+            assert_samples(&Light::Quad { quad, radiance }, |ray| Some(quad.intersect(ray)?.0));
+        }
     }
 
     #[test]

@@ -12,6 +12,7 @@
 //! | `probe_rays` | probe rays into the cells of a chart, and to small objects |
 //! | `projection_map` | paths on which a light meets mirrors and glass |
 //! | `photon_emission` | how photons of interreflection leave a light |
+//! | `spherical_quad` | the solid angle of a quad, and directions drawn evenly in it |
 //! | `direct` | direct light at a vertex: next event estimation |
 
 mod bundle;
@@ -25,6 +26,7 @@ mod probe_rays;
 mod projection_map;
 mod rays_to_ball;
 mod small_targets;
+mod spherical_quad;
 
 pub(in crate::transport) use direct::{DirectLight, SeenBy};
 pub use light_sampler::LightSampler;

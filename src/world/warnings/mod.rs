@@ -2,23 +2,29 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `warning` | [`Warning`] |
 //! | `passing` | rays that pass some primitives |
+//! | `contact` | faces of two bodies that coincide |
 //! | `edges` | edges of glass around which light goes |
 //! | `enclosure` | opaque surfaces that enclose a point |
 
+mod contact;
 mod edges;
 mod enclosure;
 mod passing;
+mod warning;
 
 use super::World;
 use super::bodies::{Body, point_of, spread};
 use super::prepare::light;
 use crate::math::{Ray, Rgb, warp};
 use crate::scene::Scene;
+use contact::of_contacts;
 use edges::free_edge;
 use enclosure::Enclosure;
 use glam::DVec3;
 use passing::nearest_except;
+pub use warning::Warning;
 
 /// Rays into a body that tell whether walls close it. Fewer would leave gaps of a few percent to chance; more would take time after each
 /// edit.
@@ -28,17 +34,6 @@ const LEAST_STEP: f64 = 1e-9;
 /// Rays that may find a way out of a body without a warning, 3 %. With fewer, rays through the seams of walls would warn of closed rooms;
 /// with more, larger gaps would pass.
 const MOST_LEAKING: usize = TEST_RAYS / 32;
-
-/// A fault of a scene that can be rendered, but is likely not meant.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Warning {
-    /// The object, the light or the camera, with its name.
-    pub subject: String,
-    /// The fault, and its effect on the picture.
-    pub fault: String,
-    /// How to mend it.
-    pub remedy: String,
-}
 
 /// The warnings about a scene and its world.
 pub fn warnings(scene: &Scene, world: &World) -> Vec<Warning> {
@@ -53,12 +48,6 @@ pub fn warnings(scene: &Scene, world: &World) -> Vec<Warning> {
         }
     }
     warnings
-}
-
-impl Warning {
-    fn new(subject: impl Into<String>, fault: String, remedy: &str) -> Self {
-        Self { subject: subject.into(), fault, remedy: remedy.to_owned() }
-    }
 }
 
 /// The objects of a scene by their names, in words.
@@ -157,19 +146,4 @@ fn leaks(world: &World, body: &Body) -> bool {
             .is_none_or(|(primitive, front)| front && body.primitives.contains(&primitive))
     };
     (0..TEST_RAYS).filter(leaks).count() > MOST_LEAKING
-}
-
-/// Surfaces of one medium that coincide and belong to two bodies.
-fn of_contacts(scene: &Scene, world: &World, warnings: &mut Vec<Warning>) {
-    for (a, b) in world.contacts.pairs() {
-        let (Some(body), Some(other)) = (world.body_of(a), world.body_of(b)) else { continue };
-        let [p, q] = [body, other].map(|rank| &world.bodies[rank as usize]);
-        if body != other && (p.ior, p.absorption) == (q.ior, q.absorption) {
-            let names = [a, b].map(|k| world.object_of(k).map_or("", |o| &scene.objects[o as usize].name));
-            let fault =
-                format!("coincides with a face of \"{}\", of the same medium: the faces are invisible", names[1]);
-            let remedy = "leave both faces out, or give the objects the same `body`";
-            warnings.push(Warning::new(format!("object \"{}\"", names[0]), fault, remedy));
-        }
-    }
 }

@@ -190,7 +190,7 @@ impl<'a> CameraTracer<'a> {
             LastEvent::Specular if branch.viewing_lobe.is_some() => Rgb::ZERO,
             LastEvent::Specular => radiance,
             LastEvent::Glossy { from, pdf, seen } => {
-                let pdf_direct = direct::pdf_light(light, from, direction, from.distance(point.position), point.n_geom);
+                let pdf_direct = direct::pdf_light(light, from, direction, from.distance(point.position));
                 let weight = self.direct.camera_weight(index, point.position, seen);
                 radiance * (weight * pdf / (pdf + pdf_direct)) as f32
             }
