@@ -187,6 +187,7 @@
 //! # References
 //!
 //! - \[Andersson20\] P. Andersson et al., FLIP: A Difference Evaluator for Alternating Images, HPG 2020.
+//! - \[Arvo95\] J. Arvo, Stratified Sampling of Spherical Triangles, SIGGRAPH 1995.
 //! - \[Blinn78\] J. Blinn, Simulation of Wrinkled Surfaces, SIGGRAPH 1978.
 //! - \[Burley20\] B. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 //! - \[Clarberg08\] P. Clarberg, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, JGT 13(3), 2008.
@@ -217,6 +218,7 @@
 //! - \[Schuessler17\] V. Schüßler et al., Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing, ACM TOG 36(6), 2017.
 //! - \[ShirleyChiu97\] P. Shirley, K. Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997.
 //! - \[Ward88\] G. Ward, F. Rubinstein, R. Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988.
+//! - \[VanOosterom83\] A. Van Oosterom, J. Strackee, The Solid Angle of a Plane Triangle, IEEE Trans. Biomed. Eng. 30(2), 1983.
 //! - \[Veach97\] E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, Stanford, 1997.
 
 #[cfg(feature = "gui")]

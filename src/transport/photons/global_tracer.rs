@@ -78,6 +78,9 @@ impl<'a> GlobalPhotonTracer<'a> {
     }
 
     /// The first ray of a path; `None` where the light does not shine in the sampled direction.
+    ///
+    /// Inlined, like the next function: a path is so large that a call would copy it.
+    #[inline(always)]
     fn start(&mut self, light: usize, path_count: u64, sampler: &mut Sampler) -> Option<PhotonPath> {
         self.stored.counters.global_paths += 1;
         let Emission { origin, direction, flux } = self.emissions[light].emit(&self.world.lights[light], sampler)?;
@@ -95,6 +98,7 @@ impl<'a> GlobalPhotonTracer<'a> {
         })
     }
 
+    #[inline(always)]
     fn follow(&mut self, mut path: PhotonPath, sampler: &mut Sampler) {
         while self.step(&mut path, sampler).is_some() {}
     }
