@@ -1,5 +1,5 @@
 use super::CliError;
-use crate::engine::{Counters, Frame};
+use crate::engine::{Counters, Frame, PathEnergy};
 use serde::Serialize;
 
 /// The statistics of a rendering, as `--stats` writes them.
@@ -18,6 +18,7 @@ pub(super) struct Statistics<'a> {
     threads: usize,
     pass_seconds: PassSeconds,
     counters: Counters,
+    energy: EnergyBalances,
     plan: Vec<Note<'a>>,
 }
 
@@ -29,6 +30,27 @@ struct PassSeconds {
     map: f64,
     gather: f64,
     commit: f64,
+}
+
+/// The energy balance of each component that photons bring, summed over the iterations.
+#[derive(Serialize)]
+struct EnergyBalances {
+    caustics: EnergyBalance,
+    interreflection: EnergyBalance,
+}
+
+#[derive(Serialize)]
+struct EnergyBalance {
+    #[serde(flatten)]
+    entries: PathEnergy,
+    path_balance: f64,
+    photon_balance: f64,
+}
+
+impl From<PathEnergy> for EnergyBalance {
+    fn from(entries: PathEnergy) -> Self {
+        Self { entries, path_balance: entries.path_balance(), photon_balance: entries.photon_balance() }
+    }
 }
 
 #[derive(Serialize)]
@@ -65,6 +87,10 @@ impl<'a> Statistics<'a> {
                 commit: passes.commit,
             },
             counters: stats.counters,
+            energy: EnergyBalances {
+                caustics: stats.energy.caustics.into(),
+                interreflection: stats.energy.interreflection.into(),
+            },
             plan: frame.plan.notes.iter().map(note).collect(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::film_sums::FilmSums;
 use super::frame::{MissingLight, PassSeconds};
-use crate::transport::{Contribution, Counters, FilmStatistics, MeasuredPlan, Plan, UnseenLight};
+use crate::transport::{Contribution, Counters, Energy, FilmStatistics, MeasuredPlan, Plan, UnseenLight};
 use flate2::Crc;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +23,7 @@ pub struct FilmPart {
     /// Whether the bias of all iterations is known.
     knows_bias: bool,
     pub(super) counters: Counters,
+    pub(super) energy: Energy,
     pub(super) passes: PassSeconds,
     pub(super) seconds: f64,
 }
@@ -39,6 +40,7 @@ impl FilmPart {
             unseen_of_one: plan.unseen_light(1.0),
             knows_bias: false,
             counters: Counters::default(),
+            energy: Energy::default(),
             passes: PassSeconds::default(),
             seconds: 0.0,
         }
@@ -49,7 +51,7 @@ impl FilmPart {
     pub(super) fn commit(
         &mut self,
         plan: &Plan,
-        Contribution { photons, samples, differences }: &Contribution,
+        Contribution { photons, samples, differences, energy }: &Contribution,
     ) -> Option<Plan> {
         let Self { film, statistics, .. } = self;
         let iteration = self.rendered + 1;
@@ -68,6 +70,7 @@ impl FilmPart {
             self.plan = refined.measured();
         }
         self.rendered = iteration;
+        self.energy += *energy;
         self.knows_bias = plan.knows_bias(iteration);
         refined
     }
@@ -100,10 +103,11 @@ impl FilmPart {
             (before, next) => next.or(before),
         };
         self.counters += next.counters;
+        self.energy += next.energy;
         self.passes += next.passes;
-        let (film, first_plan, counters, passes) = (self.film, self.first_plan, self.counters, self.passes);
-        let seconds = self.seconds + next.seconds;
-        Self { film, first_plan, statistics, counters, passes, seconds, ..next }
+        let (film, first_plan, counters, energy) = (self.film, self.first_plan, self.counters, self.energy);
+        let (passes, seconds) = (self.passes, self.seconds + next.seconds);
+        Self { film, first_plan, statistics, counters, energy, passes, seconds, ..next }
     }
 
     /// Whether the part is one of a film of this size.

@@ -1,7 +1,7 @@
 //! A picture and its statistics.
 
 use crate::film::LinearImage;
-use crate::transport::{Counters, PlanItem, PlanNote};
+use crate::transport::{Counters, Energy, PlanItem, PlanNote};
 use crate::world::Warning;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -58,6 +58,8 @@ pub struct Stats {
     pub passes: PassSeconds,
     /// All work counters.
     pub counters: Counters,
+    /// What became of the flux of the photon paths, summed over the iterations.
+    pub energy: Energy,
 }
 
 /// Light that may be missing, because too few paths have sampled an item. `Display` says so in words.

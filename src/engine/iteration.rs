@@ -2,7 +2,7 @@
 
 use super::pass_meter::{Pass, PassMeter};
 use crate::transport::{
-    Band, Contribution, Maps, PassInput, Rows, camera_pass, caustic_photon_pass, gather, global_photon_pass,
+    Band, Contribution, Energy, Maps, PassInput, Rows, camera_pass, caustic_photon_pass, gather, global_photon_pass,
 };
 use rayon::prelude::*;
 
@@ -22,6 +22,8 @@ pub fn iterate<T>(input: &PassInput, meter: &PassMeter, commit: impl FnOnce(&Con
         Some(Band::new(input, &rows, seen, &gathered.points))
     };
     let bands: Vec<Band> = plan.bands(input.iteration).into_par_iter().map(band).collect::<Option<_>>()?;
-    let contribution = meter.time(Pass::Gather, || Contribution::new(&bands, &caustic.splats, plan.camera.width));
+    let energy = Energy { caustics: caustic.energy, interreflection: global.energy };
+    let contribution =
+        meter.time(Pass::Gather, || Contribution::new(&bands, &caustic.splats, plan.camera.width, energy));
     Some(meter.time(Pass::Commit, || commit(&contribution)))
 }

@@ -193,6 +193,7 @@ impl Session {
             radius: self.plan.mean_radius(self.world.view.distance, self.part.film.last()),
             error_estimate,
             missing_light: self.part.missing_light(error_estimate),
+            energy: self.part.energy,
             ..stats(&self.part.counters, self.part.passes, self.part.seconds)
         }
     }

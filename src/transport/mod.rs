@@ -19,7 +19,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `pass`, `counters` | rows, cancellation and work counters of all passes |
+//! | `pass`, `counters`, `energy` | rows, cancellation and work counters of all passes; the energy balance of photon paths |
 //! | `points/` | scattering at a point of a surface |
 //! | `lights/` | emission and sampling of lights |
 //! | `photons/` | photons and their maps |
@@ -29,6 +29,7 @@
 
 mod counters;
 mod density;
+mod energy;
 mod lights;
 mod pass;
 mod passes;
@@ -40,6 +41,7 @@ mod testing;
 
 pub use counters::{Counted, Counters};
 pub use density::{Bandwidth, BandwidthDifference, FilmStatistics, PixelSamples};
+pub use energy::{Energy, PathEnergy};
 pub use lights::{LightSampler, PhotonEmission, ProjectionMap};
 pub use pass::{Cancel, Rows};
 pub use passes::{

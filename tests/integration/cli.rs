@@ -100,6 +100,12 @@ fn renders_png_exr_and_statistics() {
     }
     assert!(stats["counters"]["shadow_rays"].as_u64().is_some_and(|n| n > 0), "{stats}");
     assert_eq!(stats["counters"]["caustic_gathers"], 0, "there is no mirror");
+    for component in ["caustics", "interreflection"] {
+        for balance in ["path_balance", "photon_balance"] {
+            let balance = stats["energy"][component][balance].as_f64();
+            assert!(balance.is_some_and(|lost| lost.abs() < 1e-6), "{component}: {stats}");
+        }
+    }
     assert!(stats["plan"].as_array().is_some_and(|plan| !plan.is_empty()), "{stats}");
 }
 

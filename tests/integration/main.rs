@@ -9,6 +9,7 @@ mod checkpoints;
 mod cli;
 mod closed_forms;
 mod components;
+mod energy;
 mod engine;
 mod far_away;
 mod far_lamps;

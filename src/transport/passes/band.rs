@@ -7,6 +7,7 @@ use super::lobe_reuse::{lobe_samples, reuse_lobes};
 use super::lobe_sample::LobeSample;
 use crate::math::Rgb;
 use crate::transport::density::{BandwidthDifference, PixelSamples};
+use crate::transport::energy::Energy;
 use crate::transport::pass::Rows;
 use crate::transport::photons::Splat;
 use crate::transport::photons::path_blocks::concat;
@@ -33,6 +34,8 @@ pub struct Contribution {
     pub samples: Vec<PixelSamples>,
     /// Bandwidth differences, for each pixel of the film; 0 where not measured.
     pub differences: Vec<BandwidthDifference>,
+    /// What became of the flux of the photon paths.
+    pub energy: Energy,
 }
 
 impl Band {
@@ -58,7 +61,7 @@ impl Band {
 impl Contribution {
     /// Joins the bands of an iteration, from the top of the film down, for a film of this width (pixels), reuses their lobe samples among
     /// neighbours, and adds the splats.
-    pub fn new(bands: &[Band], splats: &[Splat], width: u32) -> Self {
+    pub fn new(bands: &[Band], splats: &[Splat], width: u32, energy: Energy) -> Self {
         let ((mut photons, samples), differences) = rayon::join(
             || {
                 let mut photons = concat(bands, |band| &band.photons);
@@ -70,7 +73,7 @@ impl Contribution {
             || concat(bands, |band| &band.differences),
         );
         reuse_lobes(bands.iter().map(|band| band.lobes.as_slice()), width, &mut photons);
-        Self { photons, samples, differences }
+        Self { photons, samples, differences, energy }
     }
 }
 
@@ -116,7 +119,8 @@ mod tests {
         let bands = [band(&world, &(0..1), &[(at(1), 1.0), (at(1), 2.0)]), band(&world, &(1..2), &[(at(2), 4.0)])];
         let splats = [(3, 8.0), (1, 16.0), (3, 32.0)];
         let splats = splats.map(|(pixel, radiance)| Splat { pixel, radiance: Rgb::splat(radiance) });
-        let Contribution { photons, samples, differences } = Contribution::new(&bands, &splats, 2);
+        let Contribution { photons, samples, differences, .. } =
+            Contribution::new(&bands, &splats, 2, Energy::default());
         assert_eq!(photons.iter().map(|radiance| radiance.x).collect::<Vec<_>>(), [0.0, 19.0, 4.0, 40.0]);
         assert_eq!(samples.iter().map(|samples| samples.count).collect::<Vec<_>>(), [1, 1, 2, 2], "row by row");
         assert_eq!(differences.len(), 4);
@@ -134,7 +138,8 @@ mod tests {
         };
         let in_the_lobe = VisiblePoint { seen_directly: false, primitive: 1, ..at(0) };
         let found = [(on_the_floor(0, 0.0), 1.0), (in_the_lobe, 8.0), (on_the_floor(1, 0.1), 2.0)];
-        let photons = Contribution::new(&[band(&world, &(0..1), &found), band(&world, &(1..2), &[])], &[], 2).photons;
+        let bands = [band(&world, &(0..1), &found), band(&world, &(1..2), &[])];
+        let photons = Contribution::new(&bands, &[], 2, Energy::default()).photons;
         assert_eq!([photons[0].x, photons[1].x], [1.0 + 4.0, 2.0 + 4.0]);
     }
 }

@@ -5,13 +5,14 @@
 
 use super::input::PassInput;
 use crate::math::{Ray, Rgb, Sampler, Stream};
+use crate::transport::energy::{self, power};
 use crate::transport::lights::emission::{self, Emission};
 use crate::transport::photons::path_blocks::{concat, path_blocks};
 use crate::transport::photons::{CausticPhotons, Photon, Splat};
 use crate::transport::plan::CausticPlan;
-use crate::transport::points::bsdf::{self, MAX_SHADING_FACTOR};
-use crate::transport::points::{SpecularEvent, Vertex, roulette};
-use crate::world::{Media, Surface, World};
+use crate::transport::points::bsdf::MAX_SHADING_FACTOR;
+use crate::transport::points::{SpecularEvent, Vertex, bsdf, roulette};
+use crate::world::{Lobe, Media, Scattering, Surface, World};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -43,6 +44,7 @@ pub fn caustic_photon_pass(input: &PassInput) -> Option<CausticPhotons> {
         photons: concat(&blocks, |block| &block.photons),
         splats: concat(&blocks, |block| &block.splats),
         counters: blocks.iter().map(|block| block.counters).sum(),
+        energy: blocks.iter().map(|block| block.energy).sum(),
     })
 }
 
@@ -77,6 +79,7 @@ impl<'a> CausticTracer<'a> {
         let emitted = self.caustics.projection_maps[light].emit(&self.world.lights[light], &mut sampler);
         let Some(Emission { origin, direction, flux }) = emitted else { return };
         let flux = flux / path_count as f32;
+        self.found.energy.emitted += power(flux);
         let weak = WEAK_BRANCH * flux.max_element();
         let ray = emission::ray_from_light(self.world, &self.world.lights[light], origin, direction);
         let media = self.world.media_at_light(light, ray.at(ray.t_min));
@@ -89,20 +92,51 @@ impl<'a> CausticTracer<'a> {
     /// Follows a branch to the next surface: leaves a photon where the surface scatters, branches off where it mirrors or refracts.
     fn follow(&mut self, mut branch: Branch, weak: f32, sampler: &mut Sampler) {
         self.found.counters.rays += 1;
-        let Some(hit) = self.world.closest_hit(&branch.ray) else { return };
-        let Surface::Object { front_side, material, .. } = self.world.surfaces[hit.primitive as usize] else { return };
+        let energy = &mut self.found.energy;
+        let Some(hit) = self.world.closest_hit(&branch.ray) else {
+            energy.escaped += power(branch.flux);
+            return;
+        };
+        let Surface::Object { front_side, material, .. } = self.world.surfaces[hit.primitive as usize] else {
+            energy.met_light += power(branch.flux);
+            return;
+        };
         if branch.bounces == 0 && !self.world.materials[material as usize].is_specular() {
+            energy.other_components += power(branch.flux);
             return;
         }
-        branch.flux *= self.world.transmittance(&branch.media, hit.t);
-        let ids = [front_side, material];
-        let vertex = Vertex::at_hit(self.world, &branch.ray, hit, ids, &mut self.found.counters);
+        let transmittance = self.world.transmittance(&branch.media, hit.t);
+        energy.absorb_in_media(branch.flux, transmittance);
+        branch.flux *= transmittance;
+        let vertex = Vertex::at_hit(self.world, &branch.ray, hit, [front_side, material], &mut self.found.counters);
+        let goes_on = branch.bounces + 1 < self.world.max_bounces;
+        self.divide_energy(&branch, &vertex, goes_on);
         if vertex.scatters() && branch.bounces > 0 && branch.bounces < self.world.max_bounces {
             self.leave_photon(&branch, &vertex);
         }
-        if branch.bounces + 1 < self.world.max_bounces {
+        if goes_on {
             self.branch_off(&branch, &vertex, weak, sampler);
         }
+    }
+
+    /// Divides the flux that arrives at a vertex into absorbed, scattered and specular flux; only the specular flux may go on.
+    fn divide_energy(&mut self, branch: &Branch, vertex: &Vertex, goes_on: bool) {
+        let (energy, Scattering { albedo, lobe }) = (&mut self.found.energy, vertex.scattering);
+        if goes_on && matches!(lobe, Lobe::Glass { .. }) {
+            return;
+        }
+        let [arrived, of_diffuse, of_lobe] =
+            [Rgb::ONE, albedo, energy::lobe_albedo(&lobe)].map(|weight| power(branch.flux * weight));
+        let is_specular = matches!(lobe, Lobe::Mirror { .. } | Lobe::Glass { .. });
+        let (scattered, specular) = if is_specular { (of_diffuse, of_lobe) } else { (of_diffuse + of_lobe, 0.0) };
+        energy.absorbed += arrived - scattered - specular;
+        if branch.bounces == 0 {
+            energy.other_components += scattered;
+        } else if vertex.scatters() {
+            energy.scattered += scattered;
+            energy.arrived += arrived;
+        }
+        energy.cut_off += if goes_on { 0.0 } else { specular };
     }
 
     /// Goes on along the mirrored and the refracted ray, both; weak branches end at random.
@@ -110,7 +144,9 @@ impl<'a> CausticTracer<'a> {
         let Some(event) = SpecularEvent::at(self.world, vertex, &branch.media) else { return };
         for next in [Some(event.reflected), event.refracted].into_iter().flatten() {
             let flux = branch.flux * next.tint * next.fraction as f32;
-            if let Some(survival) = roulette(flux.max_element(), weak, sampler) {
+            let survival = roulette(flux.max_element(), weak, sampler);
+            self.found.energy.branch(branch.flux, &next, &vertex.scattering.lobe, survival);
+            if let Some(survival) = survival {
                 self.branches.push(Branch {
                     ray: vertex.ray(self.world, next.direction),
                     flux: flux / survival,
@@ -131,6 +167,7 @@ impl<'a> CausticTracer<'a> {
             self.found.photons.push(Photon::arrived(self.world, vertex, branch.flux, branch.bounces));
             self.found.counters.photons_stored += 1;
         }
+        self.found.energy.stored += power(branch.flux);
         self.splat(branch, vertex);
     }
 

@@ -29,7 +29,8 @@ pub fn global_photon_pass(input: &PassInput) -> Option<GlobalPhotons> {
         || (concat(&blocks, |block| &block.indirect_caustics), concat(&blocks, |block| &block.glossy)),
     );
     let counters = blocks.iter().map(|block| block.counters).sum();
-    Some(GlobalPhotons { photons, indirect_caustics, glossy, counters })
+    let energy = blocks.iter().map(|block| block.energy).sum();
+    Some(GlobalPhotons { photons, indirect_caustics, glossy, counters, energy })
 }
 
 #[cfg(test)]

@@ -1,13 +1,15 @@
 //! Photon paths of interreflection: light that was scattered in many directions at least once before it arrives.
 
 use super::photon::Photon;
+use super::photon_path::PhotonPath;
 use super::stored::GlobalPhotons;
-use crate::math::{OrthonormalBasis, Ray, Rgb, Sampler, warp};
+use crate::math::{Rgb, Sampler};
+use crate::transport::energy::power;
 use crate::transport::lights::PhotonEmission;
 use crate::transport::lights::emission::{self, Emission};
-use crate::transport::points::{GlossyMis, SpecularEvent, Vertex, bsdf};
-use crate::world::{Lobe, Media, Surface, World};
-use glam::{DVec2, DVec3};
+use crate::transport::points::{GlossyMis, Vertex, bsdf};
+use crate::world::{Surface, World};
+use glam::DVec3;
 
 /// Distance of a point in front of a surface, relative to the coordinates of a photon: above the rounding of `f32`.
 const OFF_SURFACE: f32 = 1e-5;
@@ -19,25 +21,6 @@ pub(in crate::transport) struct GlobalPhotonTracer<'a> {
     glossy_mis: Option<&'a GlossyMis>,
     /// The photons so far.
     pub(in crate::transport) stored: GlobalPhotons,
-}
-
-/// The state of one photon path.
-struct PhotonPath {
-    light: usize,
-    /// Point on the light.
-    origin: DVec3,
-    ray: Ray,
-    flux: Rgb,
-    media: Media,
-    /// Scattering events so far.
-    bounces: u32,
-    /// Whether a diffuse or glossy surface scattered it.
-    was_scattered: bool,
-    /// Whether the last event was at a mirror or glass.
-    last_was_specular: bool,
-    /// For a path that the first surface scattered and none since but mirrors and glass: the density that [`GlossyMis::camera_weight`]
-    /// takes.
-    mis_density: Option<f64>,
 }
 
 /// The points, a little in front of surfaces, where one path of a light meets diffuse and glossy surfaces, from the first one on.
@@ -85,11 +68,13 @@ impl<'a> GlobalPhotonTracer<'a> {
         self.stored.counters.global_paths += 1;
         let Emission { origin, direction, flux } = self.emissions[light].emit(&self.world.lights[light], sampler)?;
         let ray = emission::ray_from_light(self.world, &self.world.lights[light], origin, direction);
+        let flux = flux / path_count as f32;
+        self.stored.energy.emitted += power(flux);
         Some(PhotonPath {
             light,
             origin,
             ray,
-            flux: flux / path_count as f32,
+            flux,
             media: self.world.media_at_light(light, ray.at(ray.t_min)),
             bounces: 0,
             was_scattered: false,
@@ -105,34 +90,54 @@ impl<'a> GlobalPhotonTracer<'a> {
 
     /// Follows a path to the next surface and off it; `None` where the path ends.
     fn step(&mut self, path: &mut PhotonPath, sampler: &mut Sampler) -> Option<()> {
-        let counters = &mut self.stored.counters;
+        let GlobalPhotons { counters, energy, .. } = &mut self.stored;
         counters.rays += 1;
-        let hit = self.world.closest_hit(&path.ray)?;
-        let Surface::Object { front_side, material, .. } = self.world.surfaces[hit.primitive as usize] else {
+        let Some(hit) = self.world.closest_hit(&path.ray) else {
+            energy.escaped += power(path.flux);
             return None;
         };
-        path.flux *= self.world.transmittance(&path.media, hit.t);
+        let Surface::Object { front_side, material, .. } = self.world.surfaces[hit.primitive as usize] else {
+            energy.met_light += power(path.flux);
+            return None;
+        };
+        let transmittance = self.world.transmittance(&path.media, hit.t);
+        energy.absorb_in_media(path.flux, transmittance);
+        path.flux *= transmittance;
         let vertex = Vertex::at_hit(self.world, &path.ray, hit, [front_side, material], counters);
-        if path.bounces < self.world.max_bounces {
-            self.store(path, &vertex);
+        let arrived = power(path.flux);
+        if vertex.scattering.albedo != Rgb::ZERO {
+            energy.arrived += arrived;
         }
+        if path.bounces < self.world.max_bounces {
+            self.store(path, &vertex, arrived);
+        }
+        self.go_on(path, &vertex, arrived, sampler)
+    }
+
+    /// Sends a path, which arrives with this power, on from a vertex; `None` where it ends.
+    fn go_on(&mut self, path: &mut PhotonPath, vertex: &Vertex, arrived: f64, sampler: &mut Sampler) -> Option<()> {
+        let energy = &mut self.stored.energy;
         if path.bounces + 1 >= self.world.max_bounces {
+            energy.cut_off += arrived;
             return None;
         }
         let bounces = path.bounces;
-        let direction = scatter(self.world, path, &vertex, sampler)?;
-        path.mis_density = self.mis_density(path, bounces, &vertex, direction);
+        let direction = path.scatter(self.world, vertex, sampler, energy, arrived)?;
+        path.mis_density = self.mis_density(path, bounces, vertex, direction);
         path.ray = vertex.ray(self.world, direction);
         path.flux.is_finite().then_some(())
     }
 
-    /// Stores the photons that a path leaves at a vertex.
-    fn store(&mut self, path: &PhotonPath, vertex: &Vertex) {
+    /// Stores the photons that a path, which arrives with this power, leaves at a vertex.
+    fn store(&mut self, path: &PhotonPath, vertex: &Vertex, arrived: f64) {
+        let stored = &mut self.stored;
         if path.was_scattered && vertex.scattering.albedo != Rgb::ZERO {
-            let stored = &mut self.stored;
             let photons = if path.last_was_specular { &mut stored.indirect_caustics } else { &mut stored.photons };
             photons.push(Photon::arrived(self.world, vertex, path.flux, path.bounces));
             stored.counters.photons_stored += 1;
+            stored.energy.stored += arrived;
+        } else if vertex.scattering.albedo != Rgb::ZERO {
+            stored.energy.camera_paths += arrived;
         }
         if let Some(density) = path.mis_density {
             self.store_at_lobe(path, density, vertex);
@@ -144,9 +149,14 @@ impl<'a> GlobalPhotonTracer<'a> {
     fn store_at_lobe(&mut self, path: &PhotonPath, density: f64, vertex: &Vertex) -> Option<()> {
         let mis = self.glossy_mis?;
         let lobe = mis.viewing_lobe(self.world, vertex, vertex.wo, 0.0)?;
-        let weight = 1.0 - mis.camera_weight(path.light, density, lobe);
+        let camera_weight = mis.camera_weight(path.light, density, lobe);
+        let energy = &mut self.stored.energy;
+        energy.arrived += power(path.flux);
+        energy.camera_paths += camera_weight * power(path.flux);
+        let weight = 1.0 - camera_weight;
         if weight > 0.0 {
             let flux = weight as f32 * path.flux;
+            energy.stored += power(flux);
             self.stored.glossy.push(Photon::arrived(self.world, vertex, flux, path.bounces));
             self.stored.counters.photons_stored += 1;
         }
@@ -168,69 +178,6 @@ impl<'a> GlobalPhotonTracer<'a> {
             _ => None,
         }
     }
-}
-
-/// Samples diffuse reflection, the lobe or absorption in proportion to the flux that each would leave; returns the new direction, `None`
-/// for absorption. This Russian roulette keeps the flux of all photons about equal. It is not
-/// [`roulette`](crate::transport::points::roulette), which only ends paths below a threshold: here the same number also chooses the event.
-fn scatter(world: &World, path: &mut PhotonPath, vertex: &Vertex, sampler: &mut Sampler) -> Option<DVec3> {
-    let Vertex { scattering, n_side, n_shade, wo: wi, .. } = *vertex;
-    let (u, choice): (DVec2, f64) = (sampler.next_2d(), sampler.next_1d());
-    let before = path.flux.max_element();
-    path.last_was_specular = false;
-    let kept = |weight: Rgb| f64::from((path.flux * weight).max_element() / before);
-    let lobe = match scattering.lobe {
-        Lobe::Phong { specular, .. } => kept(specular),
-        Lobe::Mirror { reflectance } => kept(reflectance),
-        Lobe::Glass { .. } | Lobe::None => 0.0,
-    };
-    let diffuse = kept(scattering.albedo);
-    // Of different colours, the brightest channels of both may be more than all light.
-    let all = (diffuse + lobe).max(1.0);
-    let (diffuse, lobe) = (diffuse / all, lobe / all);
-    if choice < diffuse {
-        path.flux *= scattering.albedo / diffuse as f32;
-        path.was_scattered = true;
-        path.bounces += 1;
-        let direction = OrthonormalBasis::from_normal(n_side).world_from_local(warp::cosine_hemisphere(u));
-        let factor = bsdf::diffuse_shading_factor(wi, n_side, n_shade);
-        path.flux *= factor as f32;
-        return (factor > 0.0).then_some(direction);
-    }
-    match scattering.lobe {
-        Lobe::None => None,
-        Lobe::Phong { .. } => {
-            if choice - diffuse >= lobe {
-                return None;
-            }
-            let (direction, weight) = bsdf::sample_glossy(&scattering, n_shade, n_side, wi, u)?;
-            path.flux *= weight / lobe as f32;
-            path.flux *= bsdf::shading_factor(wi, direction, n_side, n_shade) as f32;
-            path.was_scattered = true;
-            path.bounces += 1;
-            Some(direction)
-        }
-        Lobe::Mirror { .. } => {
-            (choice - diffuse < lobe).then(|| follow_specular(world, path, vertex, choice, lobe)).flatten()
-        }
-        Lobe::Glass { .. } => follow_specular(world, path, vertex, choice, 1.0),
-    }
-}
-
-/// Sends a path on at a mirror or glass, where it survived with this probability.
-fn follow_specular(
-    world: &World,
-    path: &mut PhotonPath,
-    vertex: &Vertex,
-    choice: f64,
-    probability: f64,
-) -> Option<DVec3> {
-    let next = SpecularEvent::at(world, vertex, &path.media)?.choose(choice);
-    path.last_was_specular = true;
-    path.flux *= next.tint / probability as f32;
-    path.bounces = next.bounces_after(path.bounces);
-    path.media = next.media;
-    Some(next.direction)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 //! | `photon_map/` | the kd-tree |
 //! | `maps` | the four maps of an iteration |
 //! | `path_blocks` | photon paths in blocks for threads |
+//! | `photon_path` | the state of a photon path of interreflection, and how surfaces scatter it |
 //! | `global_tracer` | photon paths of interreflection |
 
 mod cosine_correction;
@@ -16,6 +17,7 @@ mod maps;
 pub(in crate::transport) mod path_blocks;
 pub(in crate::transport) mod photon;
 pub(in crate::transport) mod photon_map;
+mod photon_path;
 mod stored;
 
 pub(in crate::transport) use cosine_correction::CosineCorrection;

@@ -3,6 +3,7 @@
 use super::photon::Photon;
 use crate::math::Rgb;
 use crate::transport::counters::{Counted, Counters};
+use crate::transport::energy::PathEnergy;
 
 /// Light that a caustic photon adds to the pixel that sees it.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +23,8 @@ pub struct CausticPhotons {
     pub splats: Vec<Splat>,
     /// Work done.
     pub counters: Counters,
+    /// What became of the flux of the paths.
+    pub energy: PathEnergy,
 }
 
 impl Counted for CausticPhotons {
@@ -41,6 +44,8 @@ pub struct GlobalPhotons {
     pub glossy: Vec<Photon>,
     /// Work done.
     pub counters: Counters,
+    /// What became of the flux of the paths.
+    pub energy: PathEnergy,
 }
 
 impl Counted for GlobalPhotons {

@@ -145,6 +145,13 @@ pub(in crate::transport) fn sample_glossy(
     (cos > 0.0 && wi.dot(n_side) > 0.0 && weight.max_element() > 0.0).then_some((wi, weight))
 }
 
+/// The albedo of the Phong lobe in a direction that [`sample_glossy`] samples, over the lobe's greatest albedo: `f cos / pdf` over `specular`.
+#[inline]
+pub(in crate::transport) fn glossy_fraction(scattering: &Scattering, n_shade: DVec3, wi: DVec3) -> f64 {
+    let Lobe::Phong { exponent, .. } = scattering.lobe else { return 0.0 };
+    (exponent + 2.0) / (exponent + 1.0) * wi.dot(n_shade)
+}
+
 /// Greatest correction for shading normals: only grazing directions exceed it, and would make single photons too bright.
 pub(in crate::transport) const MAX_SHADING_FACTOR: f64 = 8.0;
 

@@ -19,7 +19,7 @@ mod visible_point;
 pub use bsdf::{Fresnel, fresnel};
 pub use glossy_mis::GlossyMis;
 pub(in crate::transport) use glossy_mis::{MisVertex, ViewingLobe};
-pub(in crate::transport) use specular::{SpecularEvent, roulette};
+pub(in crate::transport) use specular::{Continuation, SpecularEvent, roulette};
 pub(in crate::transport) use vertex::Vertex;
 pub(in crate::transport) use visible_point::LEAST_COS_OF_NEIGHBOURS;
 pub use visible_point::{Clearance, Facet, VisiblePoint};

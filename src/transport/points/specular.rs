@@ -99,6 +99,17 @@ impl Continuation {
         self.tint / self.solid_angle_ratio as f32
     }
 
+    /// The factor of flux by the numbers of the material alone, against which the energy balance checks the tint. Where light does not meet the
+    /// tint of glass, that factor is exactly 1.
+    #[inline]
+    pub(in crate::transport) fn material_tint(&self, lobe: &Lobe) -> Rgb {
+        match *lobe {
+            Lobe::Mirror { reflectance } => reflectance,
+            Lobe::Glass { tint } if self.tint != Rgb::ONE => tint,
+            _ => Rgb::ONE,
+        }
+    }
+
     /// The number of scattering events of a path that had `bounces` of them before. A surface that light does not see counts only as the
     /// first event: it tells light that comes through glass from direct light.
     #[inline]

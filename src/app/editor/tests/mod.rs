@@ -20,7 +20,7 @@ use crate::app::editor::Editor;
 use crate::app::files::{Chooser, Request};
 use crate::app::shell::Dialog;
 use crate::app::theme;
-use crate::engine::{Command, Counters, Frame, PassSeconds, PlanItem, PlanNote, PlanSummary, Stats, Status};
+use crate::engine::{Command, Counters, Energy, Frame, PassSeconds, PlanItem, PlanNote, PlanSummary, Stats, Status};
 use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::scene::{Scene, SceneFile};
@@ -114,6 +114,7 @@ fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
         missing_light: None,
         passes: PassSeconds { prepare: 0.01, camera: 0.1, photons: 0.6, map: 0.05, gather: 0.1, commit: 0.02 },
         counters: Counters::default(),
+        energy: Energy::default(),
     };
     let image = Arc::new(LinearImage { width: size, height: size, pixels });
     Arc::new(Frame { generation, draft, iteration: 3, image, stats, plan: Arc::new(plan) })
