@@ -4,16 +4,22 @@ use super::frame::Frame;
 use super::messages::{Command, EngineError, EngineSettings, Status};
 use super::shared::Shared;
 use super::worker::Worker;
-use crossbeam_channel::{Sender, bounded};
+use crossbeam_channel::{Receiver, Sender, bounded};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::thread::JoinHandle;
+use std::time::Duration;
 
-/// A worker thread that renders the newest scene it was given. Dropping the engine joins the thread.
+/// Longest time that dropping an engine waits for the worker thread. To prepare a large film takes seconds and cannot be cancelled; whoever
+/// leaves the program does not wait for it.
+const LONGEST_WAIT: Duration = Duration::from_millis(200);
+
+/// A worker thread that renders the newest scene it was given. Dropping the engine ends the thread: at once, or soon after if the thread is
+/// in the middle of a step that cannot be cancelled.
 pub struct Engine {
     shared: Arc<Shared>,
     wake_worker: Sender<()>,
-    thread: Option<JoinHandle<()>>,
+    /// Closed when the worker thread has ended.
+    ended: Receiver<()>,
 }
 
 impl Engine {
@@ -27,8 +33,13 @@ impl Engine {
         let shared = Arc::new(Shared::new(wake));
         let (wake_worker, woken) = bounded(1);
         let worker = Worker::new(shared.clone(), woken, pool, settings.seed);
-        let thread = std::thread::Builder::new().name("engine".to_owned()).spawn(move || worker.run())?;
-        Ok(Self { shared, wake_worker, thread: Some(thread) })
+        let (running, ended) = bounded(0);
+        let run = move || {
+            worker.run();
+            drop(running);
+        };
+        std::thread::Builder::new().name("engine".to_owned()).spawn(run)?;
+        Ok(Self { shared, wake_worker, ended })
     }
 
     /// Sends a command; returns at once.
@@ -77,9 +88,7 @@ impl Drop for Engine {
         self.shared.request().quit = true;
         self.shared.generation.fetch_add(1, Ordering::AcqRel);
         self.wake();
-        if let Some(thread) = self.thread.take() {
-            let _panicked = thread.join();
-        }
+        let _ended = self.ended.recv_timeout(LONGEST_WAIT);
     }
 }
 
