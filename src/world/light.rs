@@ -1,12 +1,11 @@
-use super::ParallelRays;
+use super::{ParallelRays, Precision};
 use crate::geometry::{Quad, Sphere};
 use crate::math::Rgb;
-use crate::math::float::SELF_HIT_OFFSET;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Distance of test points from the surface of a light, relative to the light's coordinates: beyond what rounding does not tell apart.
-const OFF_SURFACE: f64 = 8.0 * SELF_HIT_OFFSET;
+/// Distance of test points from the surface of a light over rounding: beyond what rounding does not tell apart.
+const OFF_SURFACE: f64 = 2.0;
 
 /// A source of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,25 +73,29 @@ impl Light {
         }
     }
 
-    /// A bound of the coordinates of the light's points, scene units.
+    /// The unit normal of an area light at a point of it: to the outside or the front. `None` for other lights.
     #[inline]
-    pub fn magnitude(&self) -> f64 {
-        self.center().abs().max_element() + self.bounding_radius()
+    pub fn normal(&self, point: DVec3) -> Option<DVec3> {
+        match self {
+            Self::Sphere { sphere, .. } => Some(sphere.normal(point)),
+            Self::Quad { quad, .. } => Some(quad.normal()),
+            Self::Point { .. } | Self::Parallel(_) => None,
+        }
     }
 
     /// Points that tell in which bodies the light is, just off its surface: the center of a point light, some points of an area light or
-    /// a beam. None for a sun, which is outside of everything.
-    pub(super) fn test_points(&self) -> Vec<DVec3> {
-        let off_surface = OFF_SURFACE * self.magnitude();
+    /// a beam. None for a sun, which is outside of everything. `precision` is that of the light's surface.
+    pub(super) fn test_points(&self, precision: &Precision) -> Vec<DVec3> {
+        let off_surface = |point, normal| point + OFF_SURFACE * precision.rounding(point, normal) * normal;
         match self {
             Self::Point { position, .. } => vec![*position],
             Self::Sphere { sphere, .. } => {
                 let outward = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
-                outward.map(|n| sphere.center + (sphere.radius + off_surface) * n).collect()
+                outward.map(|n| off_surface(sphere.center + sphere.radius * n, n)).collect()
             }
             Self::Quad { quad, .. } => {
                 let inset = [(0.5, 0.5), (0.01, 0.01), (0.99, 0.01), (0.99, 0.99), (0.01, 0.99)];
-                inset.map(|(u, v)| quad.position(u, v) + off_surface * quad.normal()).to_vec()
+                inset.map(|(u, v)| off_surface(quad.position(u, v), quad.normal())).to_vec()
             }
             Self::Parallel(_) if self.is_outside() => Vec::new(),
             Self::Parallel(rays) => {

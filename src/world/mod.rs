@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `camera` | [`Camera`]: rays of pixels, pixels of points |
 //! | `parallel_rays` | [`ParallelRays`] of a sun or a beam |
+//! | `precision` | [`Precision`]: how well the points of a surface are known |
 //! | `light` | [`Light`]: points, spheres, quads, suns and beams that emit |
 //! | `texture` | [`Image`]: decoded textures |
 //! | `material` | [`Material`] with its textures; [`Scattering`] at a point |
@@ -23,6 +24,7 @@ mod error;
 mod light;
 mod material;
 mod parallel_rays;
+mod precision;
 mod prepare;
 mod prepared;
 mod probes;
@@ -38,6 +40,7 @@ pub use error::PrepareError;
 pub use light::Light;
 pub use material::{Lobe, Material, Scattering};
 pub use parallel_rays::ParallelRays;
+pub use precision::Precision;
 pub use prepare::prepare;
 pub use prepared::World;
 pub use sheets::SharedEdges;

@@ -1,10 +1,9 @@
 use super::bodies::{self, LightMedia, Surroundings};
 use super::material::{Model, Relief, Source};
-use super::prepared::Precision;
 use super::probes;
 use super::sheets::{Place, welded_sheets};
 use super::texture::{self, TextureKey};
-use super::{Camera, Contacts, Image, Light, Material, ParallelRays, PrepareError, Surface, View, World};
+use super::{Camera, Contacts, Image, Light, Material, ParallelRays, Precision, PrepareError, Surface, View, World};
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
 use crate::math::{Aabb, Rgb};
@@ -35,10 +34,12 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
     let magnitudes: Vec<DVec3> = aggregate.primitives().iter().map(Primitive::magnitude).collect();
     let contacts = Contacts::new(aggregate.primitives(), &surfaces, &magnitudes);
     let precision = |(k, magnitude)| Precision { magnitude, contact: contacts.tolerance(k) };
-    let precisions = (0..).zip(magnitudes).map(precision).collect();
+    let precisions: Vec<Precision> = (0..).zip(magnitudes).map(precision).collect();
+    let light_precisions = light_precisions(&lights, &surfaces, &precisions);
     let around = Surroundings { aggregate: &aggregate, surfaces: &surfaces, bodies: &bodies };
     let camera_media = around.media(scene.camera.position);
-    let light_media = lights.iter().map(|light| LightMedia::at(light.test_points(), &around)).collect();
+    let points = lights.iter().zip(&light_precisions).map(|(light, precision)| light.test_points(precision));
+    let light_media = points.map(|points| LightMedia::at(points, &around)).collect();
     let mut world = World {
         contacts,
         camera_media,
@@ -53,11 +54,24 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
         max_bounces: scene.render.max_bounces,
         view: View::default(),
         precisions,
+        light_precisions,
         textures: textures.decoded,
     };
     world.view = probes::view(&world, scene.camera.position.distance(scene.camera.target));
     spread_suns(&mut world);
     Ok(world)
+}
+
+/// How well the points of each light are known: those of its surface, or of the light itself if it has none.
+fn light_precisions(lights: &[Light], surfaces: &[Surface], precisions: &[Precision]) -> Vec<Precision> {
+    let without_surface = |light: &Light| Precision { magnitude: light.center().abs(), contact: 0.0 };
+    let mut found: Vec<Precision> = lights.iter().map(without_surface).collect();
+    for (surface, precision) in surfaces.iter().zip(precisions) {
+        if let Surface::Light(light) = *surface {
+            found[light as usize] = *precision;
+        }
+    }
+    found
 }
 
 /// Lets the disc of each sun cover the bounded objects, and a part of the unbounded ones about what the camera sees.

@@ -1,10 +1,10 @@
 use super::bodies::{Surroundings, touching};
 use super::texture::TextureKey;
 use super::{
-    Body, Camera, Contacts, Image, Light, LightMedia, Material, Media, Scattering, Surface, SurfacePoint, View,
+    Body, Camera, Contacts, Image, Light, LightMedia, Material, Media, Precision, Scattering, Surface, SurfacePoint,
+    View,
 };
 use crate::geometry::{Aggregate, Hit};
-use crate::math::float::rounding;
 use crate::math::{Ray, Rgb};
 use arrayvec::ArrayVec;
 use glam::DVec3;
@@ -43,17 +43,10 @@ pub struct World {
     pub view: View,
     /// For each primitive of the aggregate, how well its points are known.
     pub(super) precisions: Vec<Precision>,
+    /// For each light, how well its points are known.
+    pub(super) light_precisions: Vec<Precision>,
     /// The decoded images, for the next world.
     pub(super) textures: Vec<(TextureKey, Arc<Image>)>,
-}
-
-/// How well the points of a primitive are known.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Precision {
-    /// The [magnitude](crate::geometry::Primitive::magnitude), scene units.
-    pub(super) magnitude: DVec3,
-    /// Distance at which surfaces that touch it are one with it, scene units; 0 without contact.
-    pub(super) contact: f64,
 }
 
 impl World {
@@ -62,14 +55,14 @@ impl World {
         self.textures.iter().map(|(_, image)| image)
     }
 
-    /// The nearest hit of a ray; `None` for a miss. Where glass touches an opaque surface or a light, the
+    /// The nearest hit of a ray; `None` for a miss. Where glass touches an opaque surface, and where either touches a light, the
     /// hit lies on the opaque surface or the light.
     #[inline]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         self.aggregate.closest_hit(ray).map(|hit| self.on_opaque(ray, hit))
     }
 
-    /// A hit, moved to the opaque surface or the light that coincides with the surface of glass that was hit, if there is one.
+    /// A hit, moved to the opaque surface that coincides with the glass that was hit, or to the light that coincides with either.
     #[inline]
     pub fn on_opaque(&self, ray: &Ray, hit: Hit) -> Hit {
         if self.contacts.of(hit.primitive).is_empty() { hit } else { self.opaque_contact(ray, hit) }
@@ -183,12 +176,23 @@ impl World {
         point.position + point.n_geom * offset.copysign(direction.dot(point.n_geom))
     }
 
+    /// Least distance from a point of a light at which rays that leave it in this direction (unit length), and shadow rays that arrive in the
+    /// opposite direction, meet surfaces, scene units: the height above the light is beyond rounding. It is the same for both, so that light
+    /// crosses a nearer surface either as a photon and as direct light, or as neither. 0 for suns and beams.
+    #[inline]
+    pub fn clearance_of_light(&self, light: usize, point: DVec3, direction: DVec3) -> f64 {
+        let precision = &self.light_precisions[light];
+        match (self.lights[light].normal(point), &self.lights[light]) {
+            (Some(normal), _) => precision.rounding(point, normal) / direction.dot(normal).abs(),
+            (None, Light::Parallel(_)) => 0.0,
+            (None, _) => precision.rounding(point, direction),
+        }
+    }
+
     /// How far rounding may move a primitive, and the surfaces that touch it, at a point along the point's normal, scene units.
     #[inline]
     fn rounding(&self, point: &SurfacePoint, primitive: u32) -> f64 {
-        let Precision { magnitude, contact } = self.precisions[primitive as usize];
-        // Points of a plane lie far beyond the point that defines it.
-        rounding(magnitude.max(point.position.abs()), point.n_geom).max(contact)
+        self.precisions[primitive as usize].rounding(point.position, point.n_geom)
     }
 }
 

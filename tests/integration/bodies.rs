@@ -59,6 +59,27 @@ fn quads_and_patches_in_contact_are_one_interface() {
     }
 }
 
+/// Long bars that cross and plates that share a corner touch in a small part of their faces; cubes of one object in a whole face.
+#[test]
+fn contact_in_a_small_part_of_the_faces_is_found() {
+    let head =
+        glass([0.3, 4.0, 0.2], &[("g", 1.5, 0.0), ("h", 1.33, 0.0)]).replace("fov_y = 40", "fov_y = 6") + FURNACE;
+    let along = |material: &'static str| box_of("along", [[-5.0, -0.4, -0.1], [5.0, 0.0, 0.1]], move |_| material);
+    let across = |material: &'static str| box_of("across", [[-0.1, 0.0, -5.0], [0.1, 0.4, 5.0]], move |_| material);
+    assert_furnace("bars of quads", &format!("{head}{}{}", along("g"), across("h")));
+    assert_furnace(
+        "bars of patches",
+        &format!("{head}{}{}", patches_of(&along("g"), "g"), patches_of(&across("h"), "h")),
+    );
+    let bars = along("g") + &across("g");
+    assert_furnace("bars of one object", &format!("{head}{}", patches_of(&bars, "g")));
+    let plate = |name: &str, low: [f64; 3], material: &'static str| {
+        box_of(name, [low, [0, 1, 2].map(|k| low[k] + [2.0, 0.5, 2.0][k])], move |_| material)
+    };
+    let plates = plate("lower", [-1.9, -0.5, -1.9], "g") + &plate("upper", [0.0, 0.0, 0.0], "h");
+    assert_furnace("plates", &format!("{head}{plates}"));
+}
+
 /// A body may have several materials of one medium, named as a body or not.
 #[test]
 fn a_body_of_two_materials_is_one() {

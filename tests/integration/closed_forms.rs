@@ -94,6 +94,42 @@ fn lamps_wider_than_their_distance() {
     }
 }
 
+/// A black square 0.001 below a lamp hides it, however wide the lamp is: what is left comes from beside the square.
+#[test]
+fn wide_lamps_do_not_shine_through_what_is_near_them() {
+    for half in [1e3, 1e6, 1e8] {
+        let (corner, side) = ([-half, 2.0, -half], 2.0 * half);
+        let lamp = format!(
+            "[[light]]\nname = \"l\"\ntype = \"quad\"\ncorner = {corner:?}\nedge_u = [{side}, 0, 0]\nedge_v = [0, 0, {side}]\nradiance = [1, 1, 1]\n"
+        );
+        let square = "[[material]]\nname = \"black\"\ntype = \"diffuse\"\nalbedo = [0, 0, 0]
+            [[object]]\nname = \"square\"\ntype = \"quad\"\ncorner = [-4, 1.999, -4]\nedge_u = [8, 0, 0]\nedge_v = [0, 0, 8]\nmaterial = \"black\"\n";
+        let text = format!(
+            "{}[render]\nmax_bounces = 1
+            [[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
+            [[object]]\nname = \"p\"\ntype = \"plane\"\npoint = [0,0,0]\nnormal = [0,1,0]\nmaterial = \"m\"\n{lamp}{square}",
+            narrow_camera([0.4, 0.3, 0.0], [0.0; 3])
+        );
+        let slope = 4.0 / f64::hypot(4.0, 1.999);
+        let hidden = 4.0 / PI * slope * slope.atan();
+        assert_near(mean(&render(&text, 64)), 0.5 * (1.0 - hidden), 0.03, &format!("half a side of {half}"));
+    }
+}
+
+/// A lamp in the plane of a ceiling is a part of the ceiling: seen in gloss and by light sampling alike.
+#[test]
+fn a_lamp_in_a_ceiling_is_seen() {
+    let lamp = "[[light]]\nname = \"l\"\ntype = \"quad\"\ncorner = [-1, 2, -1]\nedge_u = [2, 0, 0]\nedge_v = [0, 0, 2]\nradiance = [1, 1, 1]\n";
+    let ceiling = "[[material]]\nname = \"white\"\ntype = \"diffuse\"\nalbedo = [0.8, 0.8, 0.8]
+        [[object]]\nname = \"ceiling\"\ntype = \"quad\"\ncorner = [-3, 2, -3]\nedge_u = [6, 0, 0]\nedge_v = [0, 0, 6]\nmaterial = \"white\"\n";
+    let up = format!("{}{ceiling}{lamp}", narrow_camera([0.1, 0.0, 0.2], [0.0, 2.0, 0.0]));
+    assert_near(mean(&render(&up, 4)), 1.0, 1e-6, "the lamp itself");
+    let floor = "[[material]]\nname = \"gloss\"\ntype = \"phong\"\nalbedo = [0, 0, 0]\nspecular = [0.9, 0.9, 0.9]\nexponent = 5000
+        [[object]]\nname = \"floor\"\ntype = \"quad\"\ncorner = [-3, 0, 3]\nedge_u = [6, 0, 0]\nedge_v = [0, 0, -6]\nmaterial = \"gloss\"\n";
+    let text = format!("{}[render]\nmax_bounces = 1\n{floor}{ceiling}{lamp}", narrow_camera([0.0, 1.0, 0.1], [0.0; 3]));
+    assert_near(mean(&render(&text, 64)), 0.9, 0.01, "its reflection");
+}
+
 /// A mirror-like Phong lobe sees a lamp with the lamp's own radiance, found by direct light and by the lobe's own paths with
 /// MIS weights.
 #[test]

@@ -51,7 +51,7 @@ pub(crate) fn patches_of(quads: &str, material: &str) -> String {
         format!("{:?}", [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| point(i, j))))
     };
     let patches: Vec<String> = (0..corners.len()).map(patch).collect();
-    object("patches", "bezier", material, &format!("patches = [{}]\n", patches.join(", ")))
+    object(&format!("patches of {material}"), "bezier", material, &format!("patches = [{}]\n", patches.join(", ")))
 }
 
 /// The middle of the spot in [`spot_scene`].

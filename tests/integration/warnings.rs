@@ -168,6 +168,17 @@ fn lights_in_closed_boxes_are_told() {
     assert_eq!(faults(&format!("{head}{room}")), NONE, "a room with the camera");
 }
 
+/// Boxes that share a strip of their faces have no gaps.
+#[test]
+fn a_narrow_contact_is_no_gap() {
+    let beside = |width: f64| box_of("beside", [[1.0, 1.0 - width, -1.0], [2.0, 2.0, 1.0]], |_| "water");
+    let head = water_and_glass() + &box_of("box", [[-1.0; 3], [1.0; 3]], |_| "g");
+    for width in [0.001, 0.01, 0.1, 0.5] {
+        let told = faults(&format!("{head}{}", beside(width)));
+        assert!(told.len() == 1 && told[0].contains("coincides with a face of \"be"), "{width}: {told:?}");
+    }
+}
+
 #[test]
 fn a_camera_in_a_dark_solid_is_told() {
     let head = water_and_glass();

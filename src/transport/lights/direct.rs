@@ -1,7 +1,6 @@
 //! Direct light: next event estimation, with multiple importance sampling against the Phong lobe.
 
 use super::PhotonEmission;
-use super::emission;
 use super::light_sampler::LightSampler;
 use super::spherical_quad::SphericalQuad;
 use crate::geometry::{Quad, Sphere};
@@ -59,13 +58,13 @@ pub(in crate::transport) struct SeenBy<'a> {
 }
 
 impl LightSample {
-    /// The ray from the surface point, moved off its surface, to the light: it ends short of the light's own surface.
+    /// The ray from the surface point, moved off its surface, to the light with this index: it ends short of the light's own surface.
     #[inline]
-    fn shadow_ray(&self, from: DVec3, light: &Light) -> Ray {
+    fn shadow_ray(&self, from: DVec3, world: &World, light: usize) -> Ray {
         if self.distance >= SUN_DISTANCE {
             return Ray::new(from, self.wi);
         }
-        let short = emission::least_distance(light) / self.distance;
+        let short = world.clearance_of_light(light, self.position, self.wi) / self.distance;
         Ray { t_max: 1.0 - short.max(END_ROUNDING), ..Ray::between(from, self.position) }
     }
 }
@@ -117,7 +116,7 @@ impl DirectLight<'_> {
             return Rgb::ZERO;
         }
         counters.shadow_rays += 1;
-        let shadow_ray = sample.shadow_ray(self.world.leave(&vertex.point, sample.wi), &self.world.lights[light]);
+        let shadow_ray = sample.shadow_ray(self.world.leave(&vertex.point, sample.wi), self.world, light);
         if self.world.aggregate.occluded(&shadow_ray) {
             return Rgb::ZERO;
         }

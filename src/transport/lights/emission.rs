@@ -5,24 +5,13 @@ use crate::world::{Light, ParallelRays, World};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Least distance from a light at which rays meet surfaces, relative to the light's coordinates: rounding must not let a ray hit the light
-/// where it begins or ends.
-const LEAST_DISTANCE: f64 = 1e-9;
-
-/// Least distance from a light at which rays that leave it, and shadow rays to it, meet surfaces, scene units. It is the same for both, so
-/// that light crosses a nearer surface either as a photon and as direct light, or as neither.
+/// A ray that leaves a point of the light with this index; the ray of a sun begins before every surface.
 #[inline]
-pub(super) fn least_distance(light: &Light) -> f64 {
-    if matches!(light, Light::Parallel(_)) { 0.0 } else { LEAST_DISTANCE * light.magnitude() }
-}
-
-/// A ray that leaves a point of this light; the ray of a sun begins before every surface.
-#[inline]
-pub(in crate::transport) fn ray_from_light(world: &World, light: &Light, origin: DVec3, direction: DVec3) -> Ray {
-    if let Light::Parallel(rays) = light {
+pub(in crate::transport) fn ray_from_light(world: &World, light: usize, origin: DVec3, direction: DVec3) -> Ray {
+    if let Light::Parallel(rays) = &world.lights[light] {
         return Ray::new(rays.beginning(&world.aggregate, origin, direction), direction);
     }
-    Ray { t_min: least_distance(light), ..Ray::new(origin, direction) }
+    Ray { t_min: world.clearance_of_light(light, origin, direction), ..Ray::new(origin, direction) }
 }
 
 /// The first ray of a light path.

@@ -114,6 +114,6 @@ impl Probes<'_> {
     }
 
     fn ray(&self, origin: DVec3, direction: DVec3) -> Ray {
-        emission::ray_from_light(self.world, self.light, origin, direction)
+        emission::ray_from_light(self.world, self.light_index as usize, origin, direction)
     }
 }

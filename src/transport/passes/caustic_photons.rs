@@ -81,7 +81,7 @@ impl<'a> CausticTracer<'a> {
         let flux = flux / path_count as f32;
         self.found.energy.emitted += power(flux);
         let weak = WEAK_BRANCH * flux.max_element();
-        let ray = emission::ray_from_light(self.world, &self.world.lights[light], origin, direction);
+        let ray = emission::ray_from_light(self.world, light, origin, direction);
         let media = self.world.media_at_light(light, ray.at(ray.t_min));
         self.branches.push(Branch { ray, flux, media, bounces: 0 });
         while let Some(branch) = self.branches.pop() {

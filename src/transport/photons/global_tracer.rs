@@ -67,7 +67,7 @@ impl<'a> GlobalPhotonTracer<'a> {
     fn start(&mut self, light: usize, path_count: u64, sampler: &mut Sampler) -> Option<PhotonPath> {
         self.stored.counters.global_paths += 1;
         let Emission { origin, direction, flux } = self.emissions[light].emit(&self.world.lights[light], sampler)?;
-        let ray = emission::ray_from_light(self.world, &self.world.lights[light], origin, direction);
+        let ray = emission::ray_from_light(self.world, light, origin, direction);
         let flux = flux / path_count as f32;
         self.stored.energy.emitted += power(flux);
         Some(PhotonPath {

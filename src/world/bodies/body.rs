@@ -1,9 +1,11 @@
-use super::contact::TOUCHING;
+use super::coincidence::TOUCHING;
 use super::crossings::{crossings, point_of, spread};
 use crate::geometry::Primitive;
 use crate::math::{Aabb, Ray, Rgb, warp};
+use crate::world::Surface;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// Lines that are drawn through a body to see whether it is closed. Fewer would miss gaps of a few percent of its surface; more would take
 /// time after each edit.
@@ -107,17 +109,26 @@ impl Body {
     }
 
     /// The primitives of a body without gaps whose normals point to its inside: behind them is the outside of the body, before them not.
-    pub(in crate::world) fn facing_inward(&self, primitives: &[Primitive]) -> Vec<u32> {
-        let is_inward = |p: &&u32| {
-            let votes = (0..VOTES).filter(|&k| {
-                point_of(&primitives[**p as usize], spread(k)).is_some_and(|(point, normal)| {
-                    let depth = |direction| self.depth_beside(**p, point, direction, primitives);
-                    depth(normal) != 0 && depth(-normal) == 0
-                })
-            });
-            2 * votes.count() > VOTES
+    /// Primitives of which the normals point to the same side of one sheet are told by the first of them.
+    pub(in crate::world) fn facing_inward(&self, primitives: &[Primitive], surfaces: &[Surface]) -> Vec<u32> {
+        let mut sides: HashMap<u32, bool> = HashMap::new();
+        let is_inward = |p: &&u32| match surfaces[**p as usize] {
+            Surface::Object { front_side, .. } => {
+                *sides.entry(front_side).or_insert_with(|| self.is_inward(**p, primitives))
+            }
+            Surface::Light(_) => false,
         };
         self.primitives.iter().filter(is_inward).copied().collect()
+    }
+
+    fn is_inward(&self, primitive: u32, primitives: &[Primitive]) -> bool {
+        let votes = (0..VOTES).filter(|&k| {
+            point_of(&primitives[primitive as usize], spread(k)).is_some_and(|(point, normal)| {
+                let depth = |direction| self.depth_beside(primitive, point, direction, primitives);
+                depth(normal) != 0 && depth(-normal) == 0
+            })
+        });
+        2 * votes.count() > VOTES
     }
 
     /// How often a path from far away enters the body without leaving it on its way to a point just beside a primitive.

@@ -1,73 +1,76 @@
-use super::crossings::point_of;
-use crate::geometry::{Hit, Primitive};
-use crate::math::Ray;
-use crate::math::float::{SELF_HIT_OFFSET, rounding};
+use super::coincidence::{Shape, contact};
+use crate::geometry::Primitive;
+use crate::math::Aabb;
 use crate::world::Surface;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::collections::HashMap;
 
-/// Points along each side of a surface at which its distance to another one is tested. Fewer would miss faces that share some
-/// hundredths of their area; more would take time for each pair of surfaces whose boxes meet, after each edit.
-const TESTED: usize = 8;
-/// How near surfaces are that may be in contact, relative to their coordinates: no nearer than a ray starts off a surface that it leaves,
-/// else the ray would miss the second surface.
-pub(in crate::world) const TOUCHING: f64 = 2.0 * SELF_HIT_OFFSET;
-/// Tolerance of a contact over the rounding of its surfaces, which is greater in other directions of the normal.
-const MARGIN: f64 = TOUCHING / SELF_HIT_OFFSET;
-
-/// For surfaces of glass, the surfaces that coincide with them over an area, up to rounding.
+/// For surfaces, those that coincide with them over an area, up to rounding.
 ///
-/// A ray cannot meet them one after the other: they are one interface between the medium before and the medium behind all of them.
+/// A ray cannot meet surfaces of glass one after the other that coincide: they are one interface between the medium before and the medium
+/// behind all of them. Where glass coincides with an opaque surface or a light, the ray meets the latter; where an opaque surface
+/// coincides with a light, it meets the light.
 #[derive(Clone, Debug, Default)]
 pub struct Contacts {
+    /// Of glass, all surfaces; of opaque surfaces, the lights. Lights come first, then in ascending order.
     of: HashMap<u32, Vec<u32>>,
     /// Distance at which each surface is one with those that touch it, scene units; equal for all that touch each other, so that a ray that
     /// leaves one of them is beyond all.
     tolerances: HashMap<u32, f64>,
 }
 
+/// Which surface a ray meets where several coincide: the greatest.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Glass,
+    Opaque,
+    Light,
+}
+
 impl Contacts {
-    /// The contacts of all surfaces of glass, of primitives with these magnitudes.
+    /// The contacts of all primitives, which have these magnitudes.
     pub(in crate::world) fn new(primitives: &[Primitive], surfaces: &[Surface], magnitudes: &[DVec3]) -> Self {
+        let shape = |k: u32| Shape { primitive: &primitives[k as usize], magnitude: magnitudes[k as usize] };
+        let shapes: Vec<Shape<'_>> = (0..primitives.len() as u32).map(shape).collect();
+        let kind = |k: u32| match surfaces[k as usize] {
+            Surface::Object { body: Some(_), .. } => Kind::Glass,
+            Surface::Object { body: None, .. } => Kind::Opaque,
+            Surface::Light(_) => Kind::Light,
+        };
+        let object = |k: u32| match surfaces[k as usize] {
+            Surface::Object { object, .. } => Some(object),
+            Surface::Light(_) => None,
+        };
+        // A ray that meets the first also meets the second.
+        let yields = |a: u32, b: u32| kind(a) == Kind::Glass || kind(a) < kind(b);
         let mut contacts = Self::default();
-        for (a, surface) in (0..).zip(surfaces) {
-            let Surface::Object { object, body: Some(_), .. } = surface else { continue };
-            for (b, other) in (0..).zip(surfaces) {
-                let is_other_glass = match other {
-                    // Patches of one object meet at their edges.
-                    Surface::Object { object: same, .. } if same == object => continue,
-                    Surface::Object { body, .. } => body.is_some(),
-                    Surface::Light(_) => false,
-                };
-                if is_other_glass && b < a {
-                    continue;
+        let mut pairs = Vec::new();
+        for [a, b] in neighbours(&shapes, |a, b| yields(a, b) || yields(b, a)) {
+            let is_one_object = object(a).is_some() && object(a) == object(b);
+            let Some(tolerance) = contact(shapes[a as usize], shapes[b as usize], is_one_object) else { continue };
+            pairs.push([a, b]);
+            for [from, to] in [[a, b], [b, a]] {
+                if yields(from, to) {
+                    contacts.of.entry(from).or_default().push(to);
                 }
-                let pair = [a, b].map(|k: u32| (&primitives[k as usize], magnitudes[k as usize]));
-                let Some(tolerance) = contact(pair) else { continue };
-                contacts.of.entry(a).or_default().push(b);
-                if is_other_glass {
-                    contacts.of.entry(b).or_default().push(a);
-                }
-                for k in [a, b] {
-                    let known = contacts.tolerances.entry(k).or_default();
-                    *known = known.max(tolerance);
-                }
+                let known = contacts.tolerances.entry(from).or_default();
+                *known = known.max(tolerance);
             }
         }
-        contacts.share_tolerances();
+        contacts.of.values_mut().for_each(|list| list.sort_unstable_by_key(|&k| (kind(k) != Kind::Light, k)));
+        contacts.share_tolerances(&pairs);
         contacts
     }
 
     /// Gives all surfaces that touch each other, directly or by way of others, the greatest tolerance among them.
-    fn share_tolerances(&mut self) {
-        let pairs = self.pairs();
+    fn share_tolerances(&mut self, pairs: &[[u32; 2]]) {
         let mut is_shared = false;
         while !is_shared {
             is_shared = true;
-            for (a, b) in &pairs {
-                let [x, y] = [self.tolerances[a], self.tolerances[b]];
+            for pair in pairs {
+                let [x, y] = pair.map(|k| self.tolerances[&k]);
                 is_shared &= x == y;
-                self.tolerances.extend([a, b].map(|&k| (k, x.max(y))));
+                self.tolerances.extend(pair.map(|k| (k, x.max(y))));
             }
         }
     }
@@ -77,65 +80,40 @@ impl Contacts {
         self.tolerances.get(&primitive).copied().unwrap_or(0.0)
     }
 
-    /// All pairs of surfaces of glass and surfaces that touch them, in ascending order.
-    pub fn pairs(&self) -> Vec<(u32, u32)> {
-        let mut pairs: Vec<_> =
-            self.of.iter().flat_map(|(&a, touching)| touching.iter().map(move |&b| (a, b))).collect();
-        // A pair of two surfaces of glass stands under both.
-        pairs.retain(|(a, b)| a < b || !self.of.contains_key(b));
+    /// The pairs of surfaces of glass that touch, in ascending order.
+    pub fn pairs_of_glass(&self) -> Vec<(u32, u32)> {
+        let of = |(&a, touching): (&u32, &Vec<u32>)| touching.iter().map(|&b| (a, b)).collect::<Vec<_>>();
+        let mut pairs: Vec<_> = self.of.iter().flat_map(of).collect();
+        // Glass stands under glass on both sides.
+        pairs.retain(|(a, b)| a < b && self.of(*b).contains(a));
         pairs.sort_unstable();
         pairs
     }
 
-    /// The surfaces that touch this one somewhere.
+    /// The surfaces that touch this one somewhere, as far as a ray that meets this one meets them, too.
     #[inline]
     pub fn of(&self, primitive: u32) -> &[u32] {
         if self.of.is_empty() { &[] } else { self.of.get(&primitive).map_or(&[], Vec::as_slice) }
     }
 }
 
-/// The hit on a primitive within this distance of a point of another surface with this unit normal, and the primitive's unit normal
-/// there; `None` where they do not touch.
-pub(in crate::world) fn touching(
-    primitive: &Primitive,
-    index: u32,
-    [point, normal]: [DVec3; 2],
-    distance: f64,
-) -> Option<(Hit, DVec3)> {
-    let ray = Ray { t_max: 2.0 * distance, ..Ray::new(point + distance * normal, -normal) };
-    let (t, u, v) = primitive.intersect(&ray)?;
-    let hit = Hit { t, primitive: index, u, v };
-    Some((hit, primitive.surface(&ray, &hit).1))
-}
-
-/// The distance at which two primitives of these magnitudes are one where they coincide over an area, scene units; `None` if they do not.
-fn contact([a, b]: [(&Primitive, DVec3); 2]) -> Option<f64> {
-    // At least the tolerance in any direction of the normal.
-    let most = 3.0 * MARGIN * SELF_HIT_OFFSET * a.1.length().max(b.1.length()).max(least_extent(a.0, b.0));
-    let (inflated, bounds) = (a.0.bounds().inflated(most), b.0.bounds());
-    let meet = inflated.min.cmple(bounds.max).all() && bounds.min.cmple(inflated.max).all();
-    let unbounded = inflated.is_empty() || bounds.is_empty();
-    let found = (meet || unbounded).then(|| tolerance_on(a, b).max(tolerance_on(b, a)))?;
-    (found > 0.0).then_some(found)
-}
-
-/// The extent of the smaller one of two primitives, scene units; 0 of two planes. Surfaces nearer than rounding of this length are one,
-/// wherever the origin lies.
-fn least_extent(a: &Primitive, b: &Primitive) -> f64 {
-    let extent = |p: &Primitive| if p.bounds().is_empty() { f64::INFINITY } else { p.bounds().diagonal() };
-    let least = extent(a).min(extent(b));
-    if least.is_finite() { least } else { 0.0 }
-}
-
-/// The greatest tolerance of contact at tested points of `a` that touch `b`; 0 if none does.
-fn tolerance_on(a: (&Primitive, DVec3), b: (&Primitive, DVec3)) -> f64 {
-    let least = SELF_HIT_OFFSET * least_extent(a.0, b.0);
-    let at = |k: usize| {
-        let uv = (DVec2::new((k % TESTED) as f64, (k / TESTED) as f64) + 0.5) / TESTED as f64;
-        let (point, normal) = point_of(a.0, uv)?;
-        let known = |magnitude: DVec3| rounding(magnitude.max(point.abs()), normal);
-        let tolerance = MARGIN * known(a.1).max(known(b.1)).max(least);
-        touching(b.0, 0, [point, normal], tolerance).map(|_| tolerance)
+/// The pairs of primitives whose boxes are within the tolerance of contacts and that `is_wanted` accepts, each once: a sweep along x.
+fn neighbours(shapes: &[Shape], is_wanted: impl Fn(u32, u32) -> bool) -> Vec<[u32; 2]> {
+    let everywhere = Aabb { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+    let inflated = |shape: &Shape| {
+        let bounds = shape.primitive.bounds();
+        if bounds.is_empty() { everywhere } else { bounds.inflated(shape.reach()) }
     };
-    (0..TESTED * TESTED).filter_map(at).fold(0.0, f64::max)
+    let mut boxes: Vec<(Aabb, u32)> = shapes.iter().map(inflated).zip(0..).collect();
+    boxes.sort_by(|(a, _), (b, _)| a.min.x.total_cmp(&b.min.x));
+    let mut pairs = Vec::new();
+    for (k, (a, p)) in boxes.iter().enumerate() {
+        for (b, q) in boxes[k + 1..].iter().take_while(|(b, _)| b.min.x <= a.max.x) {
+            let meet = a.min.cmple(b.max).all() && b.min.cmple(a.max).all();
+            if meet && is_wanted(*p, *q) {
+                pairs.push([*p.min(q), *p.max(q)]);
+            }
+        }
+    }
+    pairs
 }

@@ -8,9 +8,11 @@
 //! | `group` | from the objects of a scene to bodies in the order of their rank |
 //! | `surroundings` | the bodies around a point |
 //! | `light_media` | [`LightMedia`]: the media in which the paths of a light begin |
+//! | `coincidence` | whether two primitives coincide over an area |
 //! | `contact` | [`Contacts`]: surfaces that coincide |
 
 mod body;
+mod coincidence;
 mod contact;
 mod crossings;
 mod group;
@@ -19,8 +21,8 @@ mod media;
 mod surroundings;
 
 pub use body::Body;
+pub(super) use coincidence::{TOUCHING, touching};
 pub use contact::Contacts;
-pub(super) use contact::{TOUCHING, touching};
 pub(super) use crossings::{point_of, spread};
 pub(super) use group::bodies;
 pub use light_media::LightMedia;

@@ -12,7 +12,7 @@ const SAME: f64 = 1e-6;
 /// For each two bodies with coincident faces, one warning with the names of two such faces.
 pub(super) fn of_contacts(scene: &Scene, world: &World, warnings: &mut Vec<Warning>) {
     let mut faces: BTreeMap<[u32; 2], Vec<(u32, u32)>> = BTreeMap::new();
-    for (a, b) in world.contacts.pairs() {
+    for (a, b) in world.contacts.pairs_of_glass() {
         let (Some(p), Some(q)) = (world.body_of(a), world.body_of(b)) else { continue };
         if p != q {
             faces.entry([p.min(q), p.max(q)]).or_default().push((a, b));

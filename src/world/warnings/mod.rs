@@ -123,7 +123,7 @@ fn of_body(scene: &Scene, world: &World, body: &Body, warnings: &mut Vec<Warning
     if is_open {
         return;
     }
-    let inward = body.facing_inward(primitives);
+    let inward = body.facing_inward(primitives, &world.surfaces);
     if !inward.is_empty() {
         let fault = "is inside out: its normals point inward, so the space around it is taken for glass".to_owned();
         let remedy = "exchange edge_u and edge_v of a quad, or reverse the order of the rows of each patch";
