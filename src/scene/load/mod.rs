@@ -15,6 +15,7 @@ mod tables;
 use super::{LocatedProblem, Location, Problem, Scene, Shape, validate};
 use notes::Notes;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 use toml::de::DeTable;
 
@@ -38,10 +39,13 @@ pub(super) fn parse(text: &str, location: &Location) -> Result<Scene, Vec<Locate
 
 /// A syntax error with its byte offset.
 fn syntax_problem(text: &str, error: &toml::de::Error) -> (usize, Problem) {
-    let span = error.span().unwrap_or(0..0);
+    let is_nested = error.message().trim().contains("recursion limit");
+    // The parser does not tell where a key with too many points is.
+    let span = error.span().unwrap_or_else(|| if is_nested { longest_key(text) } else { 0..0 });
     let found = text.get(span.clone()).unwrap_or_default();
     let rest_of_line = text.get(span.start..).unwrap_or_default().lines().next().unwrap_or_default().trim();
     let message = match error.message().trim() {
+        _ if is_nested => "found a key with too many points: no table of a scene is nested so deeply".to_owned(),
         "duplicate key" => format!("found the key `{found}` for the second time"),
         // The TOML parser takes a missing value for a string without quotes.
         said if said.starts_with("string values must be quoted") && rest_of_line.is_empty() => {
@@ -53,6 +57,22 @@ fn syntax_problem(text: &str, error: &toml::de::Error) -> (usize, Problem) {
         said => said.replace('\n', "; "),
     };
     (span.start, Problem { path: String::new(), message })
+}
+
+/// The place of the first key of a text that has the most points.
+fn longest_key(text: &str) -> Range<usize> {
+    let mut longest = (0, 0..0);
+    let mut offset = 0;
+    for line in text.split_inclusive('\n') {
+        let key = line.split('=').next().unwrap_or_default();
+        let points = key.matches('.').count();
+        if points > longest.0 {
+            let start = offset + (key.len() - key.trim_start().len());
+            longest = (points, start..offset + key.trim_end().len());
+        }
+        offset += line.len();
+    }
+    longest.1
 }
 
 /// Whether the value at or around this offset begins with a point, like `.5` or `-.5`.

@@ -142,6 +142,16 @@ fn one_mistake_is_one_problem() {
 }
 
 #[test]
+fn keys_with_too_many_points_are_located() {
+    let deep = ".a".repeat(50_000);
+    for (text, place) in [(format!("[film]\nwidth = 64\n  a{deep} = 1\n"), "3:3"), (format!("\n[a{deep}]\n"), "2:1")] {
+        let found = problems(&text);
+        assert!(found.len() == 1 && found[0].starts_with(&format!("{place}: ")), "{place}: {found:?}");
+        assert!(found[0].ends_with("found a key with too many points: no table of a scene is nested so deeply"));
+    }
+}
+
+#[test]
 fn a_missing_patch_file_is_one_problem() {
     let text = "[[material]]\nname = \"m\"\ntype = \"mirror\"\nreflectance = [1, 1, 1]\n[[object]]\nname = \"s\"\n\
                 type = \"bezier\"\nfile = \"no.bpt\"\nmaterial = \"m\"\n";
