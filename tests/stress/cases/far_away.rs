@@ -3,14 +3,14 @@
 use crate::oracle;
 use crate::suite::{
     Case, Expected, Tolerance, blocks, camera, diffuse, glass, lamp, light, mean, object, picture, point_light, quad,
-    render_limits, sphere, sphere_light,
+    quad_light, render_limits, sphere, sphere_light,
 };
 use std::f64::consts::PI;
 
 const IMAGE: (u64, &str) = (16, "iterations");
 
 pub(crate) fn cases() -> Vec<Case> {
-    [wide_grounds(), far_objects(), far_lamps(), far_cameras(), suns()].into_iter().flatten().collect()
+    [wide_grounds(), wide_lamps(), far_objects(), far_lamps(), far_cameras(), suns()].into_iter().flatten().collect()
 }
 
 /// A lamp 1 above a floor lights a point 0.4 beside its foot with `1 / (1 + 0.4^2)^(3/2)`, however wide the floor is.
@@ -28,6 +28,34 @@ fn wide_grounds() -> Vec<Case> {
         })
     };
     [5.0, 50.0, 1.5e4, 5e8].into_iter().map(case).collect()
+}
+
+/// C3: the ground under the middle of a square lamp receives `pi L F`, and beside a black square just below the lamp the rest.
+fn wide_lamps() -> Vec<Case> {
+    // Of a square with this half side at this height, seen from below its middle.
+    let form_factor = |half: f64, height: f64| {
+        let slope = half / half.hypot(height);
+        4.0 / PI * slope * slope.atan()
+    };
+    let case = |(half, square): (f64, bool)| {
+        let black = quad("square", [[-4.0, 1.999, -4.0], [8.0, 0.0, 0.0], [0.0, 0.0, 8.0]], "black");
+        let floor = quad("floor", [[-1.0, 0.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]], "grey");
+        let text = camera([0.4, 0.3, 0.0], [0.0; 3], 0.02, 8)
+            + &diffuse("grey", 0.5)
+            + &diffuse("black", 0.0)
+            + &quad_light([[-half, 2.0, -half], [2.0 * half, 0.0, 0.0], [0.0, 0.0, 2.0 * half]], 1.0)
+            + &floor
+            + if square { &black } else { "" };
+        let hidden = if square { form_factor(4.0, 1.999) } else { 0.0 };
+        let name = format!("{}lamp of half width {half:e}", if square { "black square before a " } else { "" });
+        let expected = 0.5 * (form_factor(half, 2.0) - hidden);
+        Case::noisy(name, "C3", expected, Tolerance::Relative(1e-3), (16, "iterations"), move |round| {
+            mean(&picture(&text, 16, round))
+        })
+    };
+    let open = [1.0, 1e3, 1e6, 1e8].map(|half| (half, false));
+    let hidden = [1e3, 1e6, 1e8].map(|half| (half, true));
+    open.into_iter().chain(hidden).map(case).collect()
 }
 
 /// A diffuse room under a point light, open to the camera.

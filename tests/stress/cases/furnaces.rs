@@ -38,6 +38,8 @@ fn bodies() -> Vec<Case> {
     let open_top = |face: &str| if face == "top" { "ripples" } else { "a" };
     let priority = material("first", "glass", "ior = 2\nabsorption = [0, 0, 0]\npriority = 3");
     let air = material("air", "glass", "ior = 1\nabsorption = [0, 0, 0]\npriority = 1");
+    let bars = box_of("along", [[-5.0, -0.4, -0.1], [5.0, 0.0, 0.1]], |_| "a")
+        + &box_of("across", [[-0.1, 0.0, -5.0], [0.1, 0.4, 4.0]], |_| "b");
     let two_materials = glass("ripples", 1.33, 0.0) + &box_of("box", [[-1.0, -1.0, -1.0], [1.0, 0.4, 1.0]], open_top);
     let named = two_materials.replace("material =", "body = \"pool\"\nmaterial =");
     vec![
@@ -66,6 +68,7 @@ fn bodies() -> Vec<Case> {
         even("bubble of air", "O3", &(air + &ball("w", 0.0, 1.2, "b") + &ball("i", 0.3, 0.6, "air"))),
         even("boxes that touch", "G7, field 4", &(upper("b") + &lower)),
         even("boxes of one medium that touch", "G7, field 4", &(upper("a") + &lower)),
+        even("bars that cross and touch", "G7", &bars),
         even("box whose top has another material", "O3, field 6", &two_materials),
         even("box of several objects of one body", "O3, field 6", &named),
     ]
