@@ -1,6 +1,6 @@
 //! Glass bodies: photons in a closed body of Bezier patches stay on their side, and nested bodies keep all light.
 
-use crate::support::{ball, dented_cube, render};
+use crate::support::{assert_near, ball, dented_cube, mean, render, sphere};
 use glam::DVec3;
 use patchlight::geometry::bezier::Patch;
 use patchlight::geometry::{Aggregate, Primitive};
@@ -98,4 +98,29 @@ fn photons_stay_on_their_side_of_a_closed_body() {
         .reduce(Tally::default, |a, b| Tally { met: a.met + b.met, wrong: a.wrong + b.wrong });
     assert!(tally.met > 2 * photons, "most photons meet the body several times: {tally:?}");
     assert_eq!(tally.wrong, 0, "{tally:?}");
+}
+
+/// A shading normal at the same angle everywhere would turn light in a ball from each reflection to the next, until it goes round the ball
+/// for ever.
+#[test]
+fn even_relief_on_a_ball_swallows_no_light() {
+    let folder = tempfile::tempdir().unwrap();
+    for degrees in [2.0f64, 5.0, 20.0] {
+        let normal = folder.path().join(format!("tilted-{degrees}.png"));
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let byte = |x: f64| (127.5 * (x + 1.0)).round() as u8;
+        image::RgbImage::from_pixel(4, 4, image::Rgb([byte(sin), 128, byte(cos)])).save(&normal).unwrap();
+        let text = format!(
+            "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nfov_y = 35\n[film]\nwidth = 24\nheight = 24
+            [render]\nmax_bounces = 64\nbackground = [1, 1, 1]
+            [[texture]]\nname = \"tilt\"\nfile = {normal:?}
+            [[material]]\nname = \"g\"\ntype = \"glass\"\nior = 1.5\nabsorption = [0, 0, 0]\nnormal_map = {{ texture = \"tilt\" }}\n{}",
+            sphere("ball", [0.0; 3], 1.0, "g")
+        );
+        let image = render(&text, 32);
+        for pixel in &image.pixels {
+            assert!((pixel.y - 1.0).abs() < 0.02, "{degrees} degrees: a pixel of {}", pixel.y);
+        }
+        assert_near(mean(&image), 1.0, 1e-3, &format!("{degrees} degrees"));
+    }
 }

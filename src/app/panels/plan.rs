@@ -24,7 +24,7 @@ pub(super) fn warnings_ui(ui: &mut Ui, plan: &PlanSummary) {
     for warning in &plan.warnings {
         ui.horizontal_wrapped(|ui| {
             ui.colored_label(palette.warning, "⚠");
-            ui.label(format!("{} {}", warning.subject, warning.fault));
+            ui.label(format!("{} {}.", warning.subject, warning.fault));
             ui.weak(format!("To mend it: {}.", warning.remedy));
         });
     }

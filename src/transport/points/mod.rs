@@ -5,12 +5,14 @@
 //! | `bsdf` | scattering functions: Lambert, Phong, Fresnel |
 //! | `surfaces` | how a primitive's surface scatters light |
 //! | `vertex` | a vertex of a light or camera path |
+//! | `interface` | directions at an interface with a shading normal |
 //! | `specular` | the scattering event at mirrors and glass; Russian roulette |
 //! | `glossy_mis` | MIS weights between camera paths and photons in Phong lobes |
 //! | `visible_point` | where the camera gathers photons |
 
 pub(in crate::transport) mod bsdf;
 pub(in crate::transport) mod glossy_mis;
+mod interface;
 mod specular;
 mod surfaces;
 mod vertex;

@@ -1,6 +1,7 @@
 //! The one scattering event at mirrors and smooth dielectric interfaces, for camera paths, photons and caustic photons alike.
 
 use super::bsdf;
+use super::interface::Interface;
 use super::vertex::Vertex;
 use crate::math::{Rgb, Sampler};
 use crate::world::{Lobe, Media, World};
@@ -63,12 +64,13 @@ impl SpecularEvent {
             };
             return Self { reflected, refracted: Some(on) };
         }
-        let fresnel = bsdf::fresnel(vertex.wo.dot(vertex.n_shade), eta);
-        let reflected = Continuation::mirrored(vertex, &before, Rgb::ONE, fresnel.reflectance);
-        let refracted = (fresnel.reflectance < 1.0).then(|| Continuation {
-            direction: bsdf::refract_below(vertex.wo, vertex.n_shade, vertex.n_side, eta, fresnel.cos_transmitted),
+        let Interface { reflectance, reflected, refracted } =
+            Interface::new(vertex.wo, vertex.n_shade, vertex.n_side, eta);
+        let reflected = Continuation::reflected(reflected, &before, Rgb::ONE, reflectance);
+        let refracted = refracted.map(|direction| Continuation {
+            direction,
             tint,
-            fraction: 1.0 - fresnel.reflectance,
+            fraction: 1.0 - reflectance,
             solid_angle_ratio: eta * eta,
             media: behind,
             is_straight: false,
@@ -120,6 +122,11 @@ impl Continuation {
     #[inline]
     fn mirrored(vertex: &Vertex, media: &Media, tint: Rgb, fraction: f64) -> Self {
         let direction = bsdf::reflect_above(vertex.wo, vertex.n_shade, vertex.n_side);
+        Self::reflected(direction, media, tint, fraction)
+    }
+
+    #[inline]
+    fn reflected(direction: DVec3, media: &Media, tint: Rgb, fraction: f64) -> Self {
         Self { direction, tint, fraction, solid_angle_ratio: 1.0, media: media.clone(), is_straight: false }
     }
 }
