@@ -1,7 +1,7 @@
 use super::{CliError, args::CheckArguments, rendering::pool, words::counted};
 use crate::{
     engine::{PlanSummary, Session},
-    scene::{Scene, SceneFile, Shape},
+    scene::{Location, Scene, SceneFile, Shape},
 };
 use std::io::{Write, stdout};
 
@@ -9,12 +9,17 @@ use std::io::{Write, stdout};
 pub(super) fn check(arguments: &CheckArguments) -> Result<(), CliError> {
     let file = SceneFile::find(&arguments.scene)?;
     let session = pool(None)?.install(|| Session::prepare(&file, 0, None))?;
-    stdout().lock().write_all(text(&file, session.plan()).as_bytes())?;
+    let label = match file.location {
+        // The patches of a .bpt file.
+        Location::Unsaved => arguments.scene.display().to_string(),
+        _ => file.location.label(),
+    };
+    stdout().lock().write_all(text(&label, &file.scene, session.plan()).as_bytes())?;
     Ok(())
 }
 
-fn text(file: &SceneFile, plan: &PlanSummary) -> String {
-    let mut text = format!("{}: valid; {}\n", file.location.label(), contents(&file.scene));
+fn text(label: &str, scene: &Scene, plan: &PlanSummary) -> String {
+    let mut text = format!("{label}: valid; {}\n", contents(scene));
     for note in &plan.notes {
         let verdict = if note.rendered { "rendered" } else { "skipped " };
         text += &format!("{verdict}  {}: {}\n", note.item, note.reason);

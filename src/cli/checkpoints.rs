@@ -1,7 +1,7 @@
 use super::{
     CliError,
     args::{CheckpointArguments, Iterations, RenderArguments},
-    output::is_same_file,
+    output,
     progress::Progress,
     words::counted,
 };
@@ -87,12 +87,8 @@ impl<'a> Checkpoints<'a> {
     pub(super) fn must_not_overwrite(arguments: &CheckpointArguments, written: &Path) -> Result<(), CliError> {
         let is_checkpoint = arguments.checkpoint.as_deref() == Some(written);
         let resume = arguments.resume.as_deref().filter(|_| !is_checkpoint);
-        for (read, name) in [(resume, "film"), (arguments.plan.as_deref(), "plan")] {
-            if read.is_some_and(|read| is_same_file(written, read)) {
-                return Err(CliError::Usage(format!("{}: is the {name}, which would be lost", written.display())));
-            }
-        }
-        Ok(())
+        let read = [(resume, "the film"), (arguments.plan.as_deref(), "the plan")];
+        output::must_not_overwrite(written, read.into_iter().filter_map(|(read, name)| Some((read?, name))))
     }
 }
 

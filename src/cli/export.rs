@@ -1,4 +1,8 @@
-use super::{CliError, args::ExportArguments, output::write};
+use super::{
+    CliError,
+    args::ExportArguments,
+    output::{must_not_overwrite, must_spare_files_of, write},
+};
 use crate::scene::{Scene, SceneFile, Shape, SurfaceExport, SurfaceFormat};
 
 /// `patchlight export`: writes the Bezier patches of a scene in world space, as a mesh or as control points.
@@ -9,6 +13,8 @@ pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
     let path = arguments.output.display();
     let format = SurfaceFormat::of(&arguments.output)
         .ok_or_else(|| CliError::Usage(format!("{path}: expected a name that ends in .obj or .bpt")))?;
+    must_not_overwrite(&arguments.output, [(arguments.scene.as_path(), "the scene")])?;
+    must_spare_files_of(&file, &arguments.output)?;
     write(&arguments.output, surface.text(format, arguments.steps).as_bytes())
 }
 

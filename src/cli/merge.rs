@@ -1,7 +1,7 @@
 use super::{
     CliError,
     args::MergeArguments,
-    output::{is_same_file, needs_folder},
+    output::{is_same_file, must_not_overwrite, needs_folder},
     picture_format::PictureFormat,
 };
 use crate::engine::{Checkpoint, CheckpointFile};
@@ -15,10 +15,14 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), CliError> {
     let MergeArguments { films, output, checkpoint } = arguments;
     let format = output.as_deref().map(PictureFormat::of).transpose()?;
     [output, checkpoint].into_iter().flatten().try_for_each(|path| needs_folder(path))?;
-    for film in films {
-        if output.as_deref().is_some_and(|output| is_same_file(output, film)) {
-            return Err(CliError::Usage(format!("{}: is a film, which would be lost", film.display())));
-        }
+    for written in [output, checkpoint].into_iter().flatten() {
+        must_not_overwrite(written, films.iter().map(|film| (film.as_path(), "a film")))?;
+    }
+    if let (Some(output), Some(checkpoint)) = (output, checkpoint)
+        && is_same_file(output, checkpoint)
+    {
+        let file = output.display();
+        return Err(CliError::Usage(format!("{file}: is both the picture and the checkpoint, expected two files")));
     }
     let merged = merged(films)?;
     if let Some(path) = checkpoint {

@@ -2,6 +2,7 @@
 
 use super::CliError;
 use crate::file::{folder, write_whole};
+use crate::scene::SceneFile;
 use std::path::Path;
 
 /// Fails before the rendering if the folder of its result does not exist.
@@ -18,6 +19,23 @@ pub(super) fn needs_folder(path: &Path) -> Result<(), CliError> {
 /// Writes a file, whole or not at all.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     write_whole(path, bytes).map_err(|e| CliError::Failed(format!("{}: cannot be written: {e}", path.display())))
+}
+
+/// Fails if a file that is written is one of those that are read, each with its name, and would be lost.
+pub(super) fn must_not_overwrite<'a>(
+    written: &Path,
+    read: impl IntoIterator<Item = (&'a Path, &'a str)>,
+) -> Result<(), CliError> {
+    match read.into_iter().find(|(read, _)| is_same_file(written, read)) {
+        Some((_, name)) => Err(CliError::Usage(format!("{}: is {name}, which would be lost", written.display()))),
+        None => Ok(()),
+    }
+}
+
+/// [`must_not_overwrite`] for the files that a scene names.
+pub(super) fn must_spare_files_of(scene: &SceneFile, written: &Path) -> Result<(), CliError> {
+    let files = scene.files();
+    must_not_overwrite(written, files.iter().map(|file| (file.as_path(), "a file of the scene")))
 }
 
 /// Whether two paths lead to one file, which need not exist.

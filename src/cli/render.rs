@@ -3,7 +3,7 @@ use super::{
     args::{Budget, RenderArguments, RenderSettings},
     checkpoints::Checkpoints,
     interrupt::Interrupt,
-    output::{is_same_file, needs_folder, write},
+    output::{is_same_file, must_not_overwrite, must_spare_files_of, needs_folder, write},
     picture_format::PictureFormat,
     progress::Progress,
     rendering::{advance_unless, pool},
@@ -19,6 +19,7 @@ use cpu_time::ProcessTime;
 use std::{
     fmt::Display,
     io::{self, Write, stderr},
+    path::Path,
 };
 
 /// `patchlight render`: renders a picture and writes it.
@@ -26,6 +27,7 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
     let format = arguments.output.as_deref().map(PictureFormat::of).transpose()?;
     needs_own_files(arguments)?;
     let file = sized(SceneFile::find(&arguments.scene)?, &arguments.settings);
+    files_written(arguments).try_for_each(|(path, _)| must_spare_files_of(&file, path))?;
     let mut checkpoints = Checkpoints::open(&file, arguments)?;
     let pool = pool(arguments.settings.threads)?;
     let interrupt = Interrupt::watch()?;
@@ -63,21 +65,24 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
 
 /// Fails before the rendering if a file that it writes has no folder, or would overwrite the scene, a checkpoint or another result.
 fn needs_own_files(arguments: &RenderArguments) -> Result<(), CliError> {
-    let RenderArguments { scene, output, stats, checkpoints, .. } = arguments;
-    let written = [(output, "picture"), (stats, "statistics"), (&checkpoints.checkpoint, "checkpoint")];
-    let written: Vec<_> = written.into_iter().filter_map(|(path, name)| Some((path.as_deref()?, name))).collect();
+    let written: Vec<_> = files_written(arguments).collect();
     for (index, (path, name)) in written.iter().enumerate() {
         needs_folder(path)?;
-        if is_same_file(path, scene) {
-            return Err(CliError::Usage(format!("{}: is the scene, which would be lost", path.display())));
-        }
-        Checkpoints::must_not_overwrite(checkpoints, path)?;
+        must_not_overwrite(path, [(arguments.scene.as_path(), "the scene")])?;
+        Checkpoints::must_not_overwrite(&arguments.checkpoints, path)?;
         if let Some((_, other)) = written[..index].iter().find(|(other, _)| is_same_file(path, other)) {
             let file = path.display();
             return Err(CliError::Usage(format!("{file}: is both the {other} and the {name}, expected two files")));
         }
     }
     Ok(())
+}
+
+/// The files that a rendering writes, with the names of what they hold.
+fn files_written(arguments: &RenderArguments) -> impl Iterator<Item = (&Path, &'static str)> {
+    let RenderArguments { output, stats, checkpoints, .. } = arguments;
+    let written = [(output, "picture"), (stats, "statistics"), (&checkpoints.checkpoint, "checkpoint")];
+    written.into_iter().filter_map(|(path, name)| Some((path.as_deref()?, name)))
 }
 
 /// The result of a rendering.

@@ -70,7 +70,9 @@ impl FilmPart {
             self.plan = refined.measured();
         }
         self.rendered = iteration;
-        self.energy += *energy;
+        if is_in_film {
+            self.energy += *energy;
+        }
         self.knows_bias = plan.knows_bias(iteration);
         refined
     }

@@ -132,9 +132,12 @@ impl Session {
         if let Some(refined) = refined? {
             self.plan = refined;
         }
-        let Work { counters, seconds } = meter.work();
-        self.part.counters += counters;
-        self.part.passes += seconds;
+        // An iteration that only measures is no work of the film.
+        if iteration >= self.part.film.first() {
+            let Work { counters, seconds } = meter.work();
+            self.part.counters += counters;
+            self.part.passes += seconds;
+        }
         Some(())
     }
 

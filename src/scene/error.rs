@@ -62,36 +62,46 @@ pub struct LocatedProblem {
 impl LocatedProblem {
     /// The problem at a byte offset of the text.
     pub(super) fn at(text: &str, offset: usize, problem: Problem) -> Self {
-        let mut lines = Lines { text, start: 0, line: 1 };
-        lines.locate(offset, problem)
+        Place::beginning(text).locate(offset, problem)
     }
 
     /// Problems with their byte offsets in a text, in the order of the text. One pass over the text, however many problems there are.
     pub(super) fn all(text: &str, mut problems: Vec<(usize, Problem)>) -> Vec<Self> {
         problems.sort_by_key(|(offset, _)| *offset);
-        let mut lines = Lines { text, start: 0, line: 1 };
-        problems.into_iter().map(|(offset, problem)| lines.locate(offset, problem)).collect()
+        let mut place = Place::beginning(text);
+        problems.into_iter().map(|(offset, problem)| place.locate(offset, problem)).collect()
     }
 }
 
-/// A place in a text, which moves on line by line.
-struct Lines<'a> {
-    text: &'a str,
-    /// Byte offset of the beginning of the line.
-    start: usize,
-    /// Number of the line, from 1.
+/// A place in a text, which moves on.
+struct Place<'a> {
+    /// The text from here on.
+    rest: &'a str,
+    /// Byte offset in the text.
+    offset: usize,
+    /// Numbers of the line and of the character in it, from 1.
     line: usize,
+    column: usize,
 }
 
-impl Lines<'_> {
-    /// The problem at an offset, which must not lie before the line of the previous call.
+impl<'a> Place<'a> {
+    fn beginning(text: &'a str) -> Self {
+        Self { rest: text, offset: 0, line: 1, column: 1 }
+    }
+
+    /// The problem at an offset, which must not lie before that of the previous call.
     fn locate(&mut self, offset: usize, problem: Problem) -> LocatedProblem {
-        let offset = if self.text.is_char_boundary(offset) { offset } else { self.text.len() };
-        while let Some(length) = self.text[self.start..offset].find('\n') {
-            self.start += length + 1;
-            self.line += 1;
-        }
-        LocatedProblem { line: self.line, column: 1 + self.text[self.start..offset].chars().count(), problem }
+        let (passed, rest) = self.rest.split_at(self.rest.floor_char_boundary(offset.saturating_sub(self.offset)));
+        self.column = match passed.rsplit_once('\n') {
+            Some((lines, last)) => {
+                self.line += 1 + lines.matches('\n').count();
+                1 + last.chars().count()
+            }
+            None => self.column + passed.chars().count(),
+        };
+        self.offset += passed.len();
+        self.rest = rest;
+        LocatedProblem { line: self.line, column: self.column, problem }
     }
 }
 
@@ -127,5 +137,8 @@ mod tests {
         let all = LocatedProblem::all(text, [15, 6, 0, 99].map(|offset| (offset, problem())).to_vec());
         let places: Vec<_> = all.iter().map(|located| (located.line, located.column)).collect();
         assert_eq!(places, [(1, 1), (2, 1), (2, 9), (3, 1)], "in the order of the text; beyond it, at its end");
+        let all = LocatedProblem::all(text, [8, 9, 12, 12].map(|offset| (offset, problem())).to_vec());
+        let places: Vec<_> = all.iter().map(|located| (located.line, located.column)).collect();
+        assert_eq!(places, [(2, 2), (2, 3), (2, 6), (2, 6)], "one after the other; in a character, at its beginning");
     }
 }

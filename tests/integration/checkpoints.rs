@@ -97,8 +97,13 @@ fn parts_that_measure_again_merge_to_one_run() {
         assert_equal_sums(merged.film(), one_run.film());
         let ratio = error(&merged) / error(one_run.part());
         assert!((ratio - 1.0).abs() < 0.03, "{ranges:?}: {ratio}");
+        let merged = prepared(&file).resuming(merged);
+        let (stats, expected) = (merged.stats(), one_run.stats());
+        assert_eq!(stats.counters, expected.counters, "iterations that only measure are no work of the film");
+        let emitted = [stats, expected].map(|stats| stats.energy.interreflection.emitted);
+        assert!((emitted[0] / emitted[1] - 1.0).abs() < 1e-12, "{emitted:?}");
         // The merged film goes on as the run does.
-        let longer = advanced(prepared(&file).resuming(merged), 20);
+        let longer = advanced(merged, 20);
         assert_equal_sums(longer.film(), advanced(prepared(&file), 20).film());
     }
 }
@@ -157,6 +162,9 @@ fn the_commands_resume_and_merge() {
         assert!(read("resumed.exr") == read("one.exr"));
     }
     succeeds(&patchlight(dir.path(), &["merge", "a.film", "kept.film", "-o", "kept.png"]));
+    let merge = |more: &[&str]| patchlight(dir.path(), &[&["merge", "a.film", "b.film"], more].concat());
+    refuses(&merge(&["--checkpoint", "b.film"]), &["b.film: is a film, which would be lost"]);
+    refuses(&merge(&["-o", "x.exr", "--checkpoint", "x.exr"]), &["x.exr: is both the picture and the checkpoint"]);
 }
 
 #[test]

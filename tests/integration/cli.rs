@@ -197,6 +197,25 @@ fn no_output_overwrites_the_scene_or_another_output() {
 }
 
 #[test]
+fn no_output_overwrites_a_file_that_is_read() {
+    let dir = folder();
+    image::RgbImage::new(4, 4).save(dir.path().join("t.png")).unwrap();
+    let textured = SCENE.to_owned() + "[[texture]]\nname = \"t\"\nfile = \"t.png\"\n";
+    fs::write(dir.path().join("textured.toml"), textured).unwrap();
+    let run = |arguments: &[&str]| patchlight(dir.path(), arguments);
+    let render = ["render", "textured.toml", "--iterations", "1", "-o", "t.png"];
+    fails(&run(&render), 2, &["t.png: is a file of the scene, which would be lost"]);
+    let picture = run(&["render", "ball.toml", "--iterations", "1", "--size", "8x8", "-o", "r.exr"]);
+    assert!(picture.status.success(), "{}", stderr(&picture));
+    let bench = ["bench", "ball.toml", "--reference", "r.exr", "--seconds", "0.1", "--csv", "r.exr"];
+    fails(&run(&bench), 2, &["r.exr: is a picture to compare with"]);
+    let patches = "1\n3 3\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n0 1 0\n1 1 0\n2 1 0\n3 1 0\n0 2 0\n1 2 0\n2 2 0\n3 2 0\n0 3 0\n1 3 0\n2 3 0\n3 3 0\n";
+    fs::write(dir.path().join("p.bpt"), patches).unwrap();
+    fails(&run(&["export", "p.bpt", "-o", "p.bpt"]), 2, &["p.bpt: is the scene"]);
+    assert!(stdout(&run(&["check", "p.bpt"])).starts_with("p.bpt: valid; 2 objects, 1 Bezier patch"));
+}
+
+#[test]
 fn files_without_end_are_refused() {
     let dir = folder();
     fails(&patchlight(dir.path(), &["check", "."]), 2, &[".: cannot be read: it is a folder"]);

@@ -24,7 +24,7 @@ mod truth;
 use super::{
     CliError,
     args::BenchArguments,
-    output::{needs_folder, write},
+    output::{must_not_overwrite, must_spare_files_of, needs_folder, write},
     rendering::pool,
 };
 use crate::{
@@ -54,6 +54,12 @@ fn bench_scene(scene: &Path, reference: &Path, arguments: &BenchArguments) -> Re
     arguments.csv.as_deref().map_or(Ok(()), needs_folder)?;
     arguments.plot.as_deref().map_or(Ok(()), needs_png)?;
     let file = SceneFile::find(scene)?;
+    for written in [&arguments.csv, &arguments.plot].into_iter().flatten() {
+        let pictures = [Some(reference), arguments.second_reference.as_deref(), arguments.mask.as_deref()];
+        let pictures = pictures.into_iter().flatten().map(|picture| (picture, "a picture to compare with"));
+        must_not_overwrite(written, pictures.chain([(scene, "the scene")]))?;
+        must_spare_files_of(&file, written)?;
+    }
     let picture = read_exr(reference)?;
     let second = arguments.second_reference.as_deref().map(read_exr).transpose()?;
     let mask = arguments.mask.as_deref().map(Mask::read).transpose()?;

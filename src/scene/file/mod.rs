@@ -53,6 +53,17 @@ impl SceneFile {
         }
     }
 
+    /// The paths on disk of the textures and patches that the scene names.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let Scene { textures, objects, .. } = &self.scene;
+        let patches = objects.iter().filter_map(|object| match &object.shape {
+            Shape::Bezier(bezier) => bezier.file.as_deref(),
+            _ => None,
+        });
+        let named = textures.iter().map(|texture| texture.file.as_str()).chain(patches);
+        named.filter_map(|file| self.location.path_on_disk(file)).collect()
+    }
+
     /// The scene of a command line: the scene file at this path, or else the built-in scene of this name.
     ///
     /// # Errors
