@@ -61,19 +61,25 @@ impl Editor {
 
     fn panels_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         Panel::left("progress").default_size(240.0).min_size(200.0).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                progress_ui(ui, &self.document, &self.rendering, commands);
+            contained(ui, |ui| {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    progress_ui(ui, &self.document, &self.rendering, commands);
+                });
             });
         });
         Panel::right("scene").default_size(372.0).min_size(370.0).show(ui, |ui| {
-            let outline = OUTLINE_HEIGHT.min(0.5 * ui.available_height());
-            Panel::top("outline").resizable(true).default_size(outline).min_size(80.0).show(ui, |ui| {
-                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
-            });
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                ui.add_space(4.0);
-                properties_ui(ui, &self.document, commands);
-            });
+            contained(ui, |ui| self.scene_ui(ui, commands));
+        });
+    }
+
+    fn scene_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+        let outline = OUTLINE_HEIGHT.min(0.5 * ui.available_height());
+        Panel::top("outline").resizable(true).default_size(outline).min_size(80.0).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
+        });
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.add_space(4.0);
+            properties_ui(ui, &self.document, commands);
         });
     }
 
@@ -86,6 +92,15 @@ impl Editor {
             notices_ui(ui, self.rendering.status(), self.rendering.problems(), &self.chooser, commands);
         });
     }
+}
+
+/// Shows the content of a panel. Only the user resizes a panel: content that is too wide is clipped.
+fn contained(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {
+    let rect = ui.available_rect_before_wrap();
+    let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
+    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    content(&mut child);
+    ui.advance_cursor_after_rect(rect);
 }
 
 /// A command for each file that was dropped onto the window in this frame.

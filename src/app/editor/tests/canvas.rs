@@ -1,6 +1,6 @@
 use super::*;
 use crate::app::canvas::{Projection, View};
-use crate::app::document::{Handle, Item, PointIndex, handles};
+use crate::app::document::{Handle, Item, PointIndex, Selection, handles};
 use egui::{Event, MouseWheelSource, MouseWheelUnit, Pos2, TouchPhase, Vec2, vec2};
 use glam::DVec3;
 
@@ -245,5 +245,20 @@ fn a_drag_does_not_resize_the_panels() {
         ui.run_steps(2);
         ui.state_mut().document.undo();
         ui.run_steps(2);
+    }
+}
+
+#[test]
+fn a_change_of_the_selection_does_not_resize_the_panels() {
+    let mut ui = open("report");
+    let sheet = ui.state().document.selection.clone();
+    let width = |ui: &Ui| ui.state().canvas.transform.unwrap().canvas.width();
+    let before = width(&ui);
+    for round in 0..20 {
+        for selection in [Selection::of(Item::Light(0)), sheet.clone(), Selection::of(Item::Camera)] {
+            ui.state_mut().document.selection = selection;
+            ui.run_steps(3);
+            assert_eq!(width(&ui), before, "in round {round}");
+        }
     }
 }
