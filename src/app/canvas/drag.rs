@@ -4,9 +4,15 @@ use super::projection::Projection;
 use crate::app::document::Handle;
 use glam::{DVec2, DVec3};
 
-/// Squared cosine above which a camera ray counts as parallel to an axis, about 2 degrees: the pointer then gives no
-/// position along the axis.
-const PARALLEL: f64 = 0.999;
+/// Sine of the angle between an axis and the camera ray below which perspective gives no usable position along the axis,
+/// 30 degrees: near the axis's vanishing point a few pixels are an endless way.
+const STEEP: f64 = 0.5;
+/// Sine of the angle below which an axis has no visible direction on the film, about 3 degrees.
+const END_ON: f64 = 0.05;
+/// The nearest depth that a drag reaches, as a fraction of the depth at its start.
+const NEAREST: f64 = 0.1;
+/// The greatest speed along an axis over the speed at the start of the drag.
+const FASTEST: f64 = 10.0;
 
 /// The plane or line that a drag moves in.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -44,15 +50,29 @@ impl Drag {
         }
     }
 
-    /// The point of the axis nearest to the camera ray; the start where both are nearly parallel.
+    /// The point of the axis whose projection is nearest to `film`. Along a steep axis the handle moves instead as far as
+    /// the same pixels move it sideways, in the direction of the projected axis.
     fn along(&self, axis: DVec3, film: DVec2, projection: &Projection) -> DVec3 {
-        let ray = projection.ray(film);
-        let cosine = axis.dot(ray.direction);
-        if cosine * cosine > PARALLEL {
-            return self.start;
-        }
-        let to_start = self.start - ray.origin;
-        let distance = (cosine * ray.direction.dot(to_start) - axis.dot(to_start)) / (1.0 - cosine * cosine);
+        let Some(start) = projection.project(self.start) else { return self.start };
+        let depth = projection.depth(self.start);
+        // The film point of start + t axis is start + t slope / (1 + t growth).
+        let growth = (projection.depth(self.start + axis) - depth) / depth;
+        let slope = projection.slope(self.start, axis);
+        let sideways = projection.pixels_per_unit(depth);
+        let direction = if slope.length() > END_ON * sideways {
+            slope.normalize()
+        } else {
+            // Down is towards the viewer: y of the film points down.
+            DVec2::new(0.0, -growth.signum())
+        };
+        let pixels = (film - start).dot(direction);
+        let distance = if slope.length() < STEEP * sideways {
+            pixels / sideways
+        } else {
+            pixels / (slope.length() - growth * pixels).max(slope.length() / FASTEST)
+        };
+        let reach = (1.0 - NEAREST) / growth.abs();
+        let distance = if growth < 0.0 { distance.min(reach) } else { distance.max(-reach) };
         self.start + axis * distance
     }
 }
@@ -109,10 +129,36 @@ mod tests {
     }
 
     #[test]
-    fn a_drag_along_an_axis_towards_the_camera_moves_no_handle() {
-        let start = DVec3::new(0.3, -0.2, 0.5);
+    fn an_axis_towards_the_camera_moves_as_far_as_the_same_pixels_sideways() {
+        let projection = projection();
+        let start = DVec3::new(0.05, 0.2, 0.0);
         let (drag, pointer) = grabbed(start, DVec2::ZERO);
-        let axis = (start - DVec3::new(1.0, 2.0, 4.0)).normalize();
-        assert_eq!(drag.target(pointer, Constraint::Axis(axis), &projection()), start);
+        let axis = (DVec3::new(1.0, 2.0, 4.0) - start).normalize();
+        let moved = |pixels: DVec2, constraint| drag.target(pointer + pixels, constraint, &projection) - start;
+        let mut last = 0.0;
+        for pixels in [10.0, 20.0, 60.0] {
+            let nearer = moved(DVec2::new(0.0, pixels), Constraint::Axis(axis)).dot(axis);
+            let sideways = moved(DVec2::new(pixels, 0.0), Constraint::Facing).length();
+            assert!((nearer - sideways).abs() < 1e-9, "{pixels} pixels down: {nearer} nearer, {sideways} sideways");
+            assert!(nearer > last, "farther with every pixel");
+            last = nearer;
+            let farther = moved(DVec2::new(0.0, -pixels), Constraint::Axis(axis)).dot(axis);
+            assert!((farther + nearer).abs() < 1e-9, "up moves away from the camera: {farther}");
+        }
+    }
+
+    #[test]
+    fn no_pointer_moves_a_handle_along_an_axis_endlessly_far_or_behind_the_camera() {
+        let (projection, start) = (projection(), DVec3::new(0.3, -0.2, 0.5));
+        let (drag, pointer) = grabbed(start, DVec2::ZERO);
+        for axis in DVec3::AXES {
+            for k in 0..64 {
+                let way = 2000.0 * DVec2::from_angle(f64::from(k) * 0.1);
+                let there = drag.target(pointer + way, Constraint::Axis(axis), &projection);
+                let sideways = 2000.0 / projection.pixels_per_unit(projection.depth(start));
+                assert!(there.distance(start) <= sideways * FASTEST / STEEP, "{there} along {axis}");
+                assert!(projection.depth(there) > 0.0, "{there} is in front of the camera");
+            }
+        }
     }
 }

@@ -47,6 +47,20 @@ impl Projection {
         (world - self.position).dot(self.forward)
     }
 
+    /// Film pixels per scene unit at depth `depth`, across the view direction.
+    pub(crate) fn pixels_per_unit(&self, depth: f64) -> f64 {
+        self.focal / depth
+    }
+
+    /// The speed on the film of a point at `world` that moves along `direction`, pixels per length of `direction`.
+    pub(crate) fn slope(&self, world: DVec3, direction: DVec3) -> DVec2 {
+        let depth = self.depth(world);
+        let offset = world - self.position;
+        // The derivative of focal (x / depth) by the quotient rule.
+        let across = |axis: DVec3| direction.dot(axis) - offset.dot(axis) * direction.dot(self.forward) / depth;
+        self.pixels_per_unit(depth) * DVec2::new(across(self.right), -across(self.up))
+    }
+
     /// The film point of a world point, pixels; `None` behind the near plane.
     pub(crate) fn project(&self, world: DVec3) -> Option<DVec2> {
         let depth = self.depth(world);
@@ -54,7 +68,7 @@ impl Projection {
             return None;
         }
         let offset = world - self.position;
-        let scale = self.focal / depth;
+        let scale = self.pixels_per_unit(depth);
         Some(self.center + DVec2::new(offset.dot(self.right), -offset.dot(self.up)) * scale)
     }
 
