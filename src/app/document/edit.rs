@@ -1,7 +1,7 @@
 //! Every change that the window can make to a scene, as data.
 
-use super::handles::Handle;
-use super::selection::Item;
+use super::handles::{self, Handle};
+use super::selection::{Item, PointIndex};
 use crate::scene::{Camera, Color, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Texture};
 use glam::DVec3;
 
@@ -26,6 +26,8 @@ pub(crate) enum Edit {
     Texture(usize, Texture),
     /// Moves handles by a vector in world space.
     Move(Vec<Handle>, DVec3),
+    /// Places a control point of the object at this index, with the control points welded to it, object space.
+    Place(usize, PointIndex, DVec3),
     /// Appends an object.
     AddObject(Object),
     /// Appends a material.
@@ -59,6 +61,7 @@ impl Edit {
                 Some(Handle::Light(light)) => ("move light", *light),
                 None => ("move", 0),
             },
+            Self::Place(object, ..) => ("move control point", *object),
             Self::AddObject(_) => ("add object", 0),
             Self::AddMaterial(_) => ("add material", 0),
             Self::AddLight(_) => ("add light", 0),
@@ -90,6 +93,7 @@ impl Edit {
             Self::Light(index, light) => replace(&mut scene.lights, index, light),
             Self::Texture(index, texture) => replace_texture(scene, index, texture),
             Self::Move(handles, by) => handles.into_iter().for_each(|handle| handle.translate(scene, by)),
+            Self::Place(object, point, to) => handles::place(scene, object, point, to),
             Self::AddObject(object) => scene.objects.push(object),
             Self::AddMaterial(material) => scene.materials.push(material),
             Self::AddLight(light) => scene.lights.push(light),

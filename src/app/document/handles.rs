@@ -104,6 +104,14 @@ pub(crate) fn welded(bezier: &Bezier, point: PointIndex) -> BTreeSet<PointIndex>
     group.unwrap_or_else(|| BTreeSet::from([point]))
 }
 
+/// Places a control point, and the control points welded to it, at a position in object space.
+pub(super) fn place(scene: &mut Scene, object: usize, point: PointIndex, to: DVec3) {
+    let Some(Object { shape: Shape::Bezier(bezier), .. }) = scene.objects.get_mut(object) else { return };
+    for point in welded(bezier, point) {
+        set_point(bezier, point, |position| *position = to);
+    }
+}
+
 /// The index of every control point with its position in object space.
 pub(crate) fn control_points(bezier: &Bezier) -> impl Iterator<Item = (PointIndex, DVec3)> + '_ {
     bezier.patches.iter().enumerate().flat_map(|(patch, net)| {
@@ -163,10 +171,15 @@ fn light_center(emitter: &Emitter) -> DVec3 {
 fn translate_point(bezier: &mut Bezier, point: PointIndex, by: DVec3) {
     let object_from_world = bezier.transform.world_from_object().inverse();
     let by = object_from_world.transform_vector3(by);
+    if by.is_finite() {
+        set_point(bezier, point, |position| *position += by);
+    }
+}
+
+fn set_point(bezier: &mut Bezier, point: PointIndex, change: impl FnOnce(&mut DVec3)) {
     let net = Arc::make_mut(&mut bezier.patches).get_mut(point.patch);
-    let position = net.and_then(|net| net.points.get_mut(point.i)?.get_mut(point.j));
-    if let Some(position) = position.filter(|_| by.is_finite()) {
-        *position += by;
+    if let Some(position) = net.and_then(|net| net.points.get_mut(point.i)?.get_mut(point.j)) {
+        change(position);
         // The patches now differ from the `.bpt` file.
         bezier.file = None;
     }

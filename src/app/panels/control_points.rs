@@ -4,9 +4,8 @@ use super::fields::{Number, length_speed, vector};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, PointIndex, Selection};
 use crate::geometry::bezier::ControlNet;
-use crate::scene::{Bezier, Shape};
-use egui::{Button, DragValue, Grid, Ui};
-use std::sync::Arc;
+use crate::scene::Bezier;
+use egui::{Button, DragValue, Grid, RichText, Ui};
 
 /// The choice of a patch, and its 16 control points in object space.
 pub(super) fn control_points_ui(
@@ -21,11 +20,7 @@ pub(super) fn control_points_ui(
     if bezier.patches.len() > 1 {
         patch_ui(ui, document, bezier.patches.len(), commands);
     }
-    let mut edited = *net;
-    net_ui(ui, document, patch, &mut edited, commands);
-    if edited != *net {
-        commands.extend(replaced(document, object, patch, edited).map(AppCommand::Edit));
-    }
+    net_ui(ui, document, (object, patch), *net, commands);
 }
 
 fn patch_ui(ui: &mut Ui, document: &Document, count: usize, commands: &mut Vec<AppCommand>) {
@@ -46,34 +41,37 @@ fn patch_ui(ui: &mut Ui, document: &Document, count: usize, commands: &mut Vec<A
     }
 }
 
-fn net_ui(ui: &mut Ui, document: &Document, patch: usize, net: &mut ControlNet, commands: &mut Vec<AppCommand>) {
+fn net_ui(
+    ui: &mut Ui,
+    document: &Document,
+    (object, patch): (usize, usize),
+    net: ControlNet,
+    commands: &mut Vec<AppCommand>,
+) {
     let spec = Number::any(length_speed(&document.scene().camera));
     Grid::new("control points").num_columns(2).spacing([6.0, 2.0]).show(ui, |ui| {
-        for (i, row) in net.points.iter_mut().enumerate() {
-            for (j, position) in row.iter_mut().enumerate() {
-                let point = PointIndex { patch, i, j };
-                let name = format!("P[{i}][{j}]");
-                let selected = document.selection.points.contains(&point);
-                let label = ui.selectable_label(selected, egui::RichText::new(&name).monospace());
-                if label.on_hover_text("Select this control point; Shift adds it to the selection").clicked() {
-                    let mut selection = document.selection.clone();
-                    selection.click_point(point, ui.input(|input| input.modifiers.shift));
-                    commands.push(AppCommand::Select(selection));
+        for (i, row) in net.points.into_iter().enumerate() {
+            for (j, position) in row.into_iter().enumerate() {
+                let (point, name) = (PointIndex { patch, i, j }, format!("P[{i}][{j}]"));
+                label_ui(ui, document, point, &name, commands);
+                let mut placed = position;
+                ui.horizontal(|ui| vector(ui, &name, &mut placed, &spec));
+                if placed != position {
+                    commands.push(AppCommand::Edit(Edit::Place(object, point, placed)));
                 }
-                ui.horizontal(|ui| vector(ui, &name, position, &spec));
                 ui.end_row();
             }
         }
     });
 }
 
-/// The edit that replaces the control net of a patch; `None` where the object or patch does not exist.
-fn replaced(document: &Document, object: usize, patch: usize, net: ControlNet) -> Option<Edit> {
-    let mut edited = document.scene().objects.get(object)?.clone();
-    if let Shape::Bezier(bezier) = &mut edited.shape {
-        *Arc::make_mut(&mut bezier.patches).get_mut(patch)? = net;
-        // The patches now differ from the `.bpt` file.
-        bezier.file = None;
+/// The name of a control point: a click selects the control point.
+fn label_ui(ui: &mut Ui, document: &Document, point: PointIndex, name: &str, commands: &mut Vec<AppCommand>) {
+    let selected = document.selection.points.contains(&point);
+    let label = ui.selectable_label(selected, RichText::new(name).monospace());
+    if label.on_hover_text("Select this control point; Shift adds it to the selection").clicked() {
+        let mut selection = document.selection.clone();
+        selection.click_point(point, ui.input(|input| input.modifiers.shift));
+        commands.push(AppCommand::Select(selection));
     }
-    Some(Edit::Object(object, edited))
 }

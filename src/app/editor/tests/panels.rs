@@ -1,5 +1,5 @@
 use super::*;
-use crate::app::document::{Item, Selection};
+use crate::app::document::{Item, PointIndex, Selection, handles};
 use crate::scene::{Color, Emitter, MaterialModel, Shape, built_in_scenes};
 
 fn select(ui: &mut Ui, item: Item) {
@@ -226,4 +226,23 @@ fn a_texture_in_use_cannot_be_deleted() {
     ui.key_press(Key::Delete);
     ui.run_steps(2);
     assert_eq!(*scene(&ui), before, "a material uses the texture");
+}
+
+#[test]
+fn a_typed_coordinate_keeps_a_seam_closed() {
+    let mut ui = open("cardioid");
+    let seams = |ui: &Ui| {
+        let Item::Object(object) = ui.state().document.selection.item else { panic!("a Bezier object is selected") };
+        handles::visible(scene(ui), Item::Object(object)).len()
+    };
+    let before = seams(&ui);
+    // All 16 rows are visible.
+    ui.set_size(egui::vec2(1280.0, 1400.0));
+    ui.run_steps(3);
+    type_number(&mut ui, "P[3][3] y", "0.123");
+    assert_eq!(seams(&ui), before, "the points that share a position still share one");
+    let Shape::Bezier(bezier) = &ui.state().document.selection.object(scene(&ui)).unwrap().shape else { panic!() };
+    let point = PointIndex { patch: 0, i: 3, j: 3 };
+    assert!(handles::welded(bezier, point).len() > 1, "the point lies on a seam");
+    assert_eq!(bezier.patches[0].points[3][3].y, 0.123, "the typed number");
 }
