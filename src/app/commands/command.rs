@@ -26,6 +26,8 @@ pub(crate) enum AppCommand {
     Leave(Next),
     /// Answer "Save the changes?".
     Answer(Answer),
+    /// Save the scene over its file, which another program has changed.
+    Replace(PathBuf),
     /// Use the typed path.
     PathEntered(PathBuf),
     /// Dismiss a slow file dialog and ask for a typed path.

@@ -8,6 +8,7 @@
 //! | `history` | undo and redo of whole states |
 //! | `kinds` | the kinds of shapes, lights, materials and textures: names, and conversions |
 //! | `new_items` | the items that "Add", "Duplicate" and "New scene" create |
+//! | `stamp` | the state of a file on disk |
 //! | `state` | [`Document`]: the scene with its file, selection and history |
 
 mod edit;
@@ -16,6 +17,7 @@ mod history;
 pub(crate) mod kinds;
 pub(crate) mod new_items;
 mod selection;
+mod stamp;
 mod state;
 
 pub(crate) use edit::{Edit, user_of};

@@ -3,6 +3,7 @@
 use super::edit::{Edit, EditKey};
 use super::history::History;
 use super::selection::Selection;
+use super::stamp::Stamp;
 use crate::scene::{Location, Scene, SceneFile};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,6 +16,8 @@ pub(crate) struct Document {
     saved: Arc<SceneFile>,
     /// The scene's file; `None` for a built-in scene and for a scene that was never saved.
     path: Option<PathBuf>,
+    /// The scene's file as it was opened or saved last.
+    stamp: Option<Stamp>,
     /// The item that the panels and the canvas show.
     pub(crate) selection: Selection,
     history: History<(Arc<SceneFile>, Selection), EditKey>,
@@ -28,8 +31,8 @@ impl Document {
             Location::BuiltIn(_) | Location::Unsaved => None,
         };
         let selection = Selection::first_of(&file.scene);
-        let file = Arc::new(file);
-        Self { saved: Arc::clone(&file), file, path, selection, history: History::default() }
+        let (file, stamp) = (Arc::new(file), path.as_deref().and_then(Stamp::of));
+        Self { saved: Arc::clone(&file), file, path, stamp, selection, history: History::default() }
     }
 
     /// The present state of the scene.
@@ -45,6 +48,12 @@ impl Document {
     /// The scene's file; `None` for a built-in scene and for a scene that was never saved.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.path.as_deref()
+    }
+
+    /// Whether another program has changed the scene's file since it was opened or saved last.
+    pub(crate) fn is_changed_outside(&self) -> bool {
+        let present = self.path.as_deref().and_then(Stamp::of);
+        present.is_some() && present != self.stamp
     }
 
     /// Whether the scene differs from its saved state.
@@ -111,6 +120,7 @@ impl Document {
 
     /// Takes `saved` as the present scene: it was just written to `path`, and its file paths are relative to there.
     pub(crate) fn saved_as(&mut self, path: PathBuf, saved: SceneFile) {
+        self.stamp = Stamp::of(&path);
         self.path = Some(path);
         self.saved = Arc::new(saved);
         self.file = Arc::clone(&self.saved);

@@ -31,12 +31,26 @@ impl Editor {
         }
     }
 
-    /// Saves the scene to its file, or asks for a path where it has no file.
+    /// Saves the scene to its file. Asks first where another program has changed the file, and asks for a path where the
+    /// scene has no file.
     pub(crate) fn save(&mut self, ctx: &Context) {
         match self.document.path().map(Path::to_path_buf) {
+            Some(path) if self.document.is_changed_outside() => self.dialog = Some(Dialog::ChangedOutside(path)),
             Some(path) => self.save_to(ctx, path),
             None => self.ask_for_path(ctx, Purpose::SaveScene),
         }
+    }
+
+    /// Asks for a path to save the scene to, also in answer to an open dialog.
+    pub(crate) fn save_as(&mut self, ctx: &Context) {
+        self.dialog = None;
+        self.ask_for_path(ctx, Purpose::SaveScene);
+    }
+
+    /// Saves the scene over its file, after the user's confirmation.
+    pub(crate) fn replace(&mut self, ctx: &Context, path: PathBuf) {
+        self.dialog = None;
+        self.save_to(ctx, path);
     }
 
     /// Saves the scene to `path`, then leaves it if the user asked to save before leaving.

@@ -4,12 +4,15 @@ use crate::app::commands::{Action, Answer, AppCommand, Next};
 use crate::app::files::PathField;
 use egui::{Context, DragValue, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui};
 use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
 /// A modal dialog with its state.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Dialog {
     /// Asks whether to save the changes first.
     Unsaved(Next),
+    /// Asks whether to replace the scene's file, which another program has changed.
+    ChangedOutside(PathBuf),
     /// Reports an error: title, text.
     Error(String, String),
     /// Asks for a path.
@@ -26,6 +29,7 @@ pub(crate) fn dialog_ui(ctx: &Context, dialog: &mut Dialog, document_title: &str
         ui.set_max_width(560.0);
         match dialog {
             Dialog::Unsaved(next) => unsaved_ui(ui, document_title, next, commands),
+            Dialog::ChangedOutside(path) => changed_ui(ui, path, commands),
             Dialog::Error(title, text) => error_ui(ui, title, text, commands),
             Dialog::Path(field) => field.ui(ui, commands),
             Dialog::Surface(name, steps) => surface_ui(ui, name, steps, commands),
@@ -50,6 +54,27 @@ fn unsaved_ui(ui: &mut Ui, title: &str, next: &Next, commands: &mut Vec<AppComma
             if ui.button(label).clicked() {
                 commands.push(AppCommand::Answer(answer));
             }
+        }
+    });
+}
+
+fn changed_ui(ui: &mut Ui, path: &Path, commands: &mut Vec<AppCommand>) {
+    ui.heading("Replace the changed file?");
+    ui.label(format!(
+        "Another program has changed {} since it was opened or saved here. Replacing it discards the changes of the \
+         other program.",
+        path.display()
+    ));
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        if ui.button("Save as…").clicked() {
+            commands.push(AppCommand::Do(Action::SaveAs));
+        }
+        if ui.button("Replace").clicked() {
+            commands.push(AppCommand::Replace(path.to_owned()));
+        }
+        if ui.button("Cancel").clicked() {
+            commands.push(AppCommand::CloseDialog);
         }
     });
 }

@@ -229,3 +229,34 @@ fn enter_closes_a_message() {
     ui.run_steps(2);
     assert_eq!(ui.state().dialog, None);
 }
+
+#[test]
+fn a_file_that_another_program_changed_is_replaced_only_after_a_question() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    let (path, copy) = (folder.path().join("mine.toml"), folder.path().join("copy.toml"));
+    answer_dialogs(&mut ui, Some(path.clone()));
+    press(&mut ui, Key::S);
+    wait_until(&mut ui, "the save", |_| path.exists());
+    edit(&mut ui);
+    std::fs::write(&path, "# the work of another program").unwrap();
+    press(&mut ui, Key::S);
+    assert!(ui.query_by_label("Replace the changed file?").is_some(), "the dialog asks");
+    click(&mut ui, "Cancel");
+    let text = || std::fs::read_to_string(&path).unwrap();
+    assert_eq!(text(), "# the work of another program");
+    assert!(ui.state().document.is_dirty(), "nothing is saved");
+
+    answer_dialogs(&mut ui, Some(copy.clone()));
+    press(&mut ui, Key::S);
+    click(&mut ui, "Save as…");
+    wait_until(&mut ui, "the copy", |_| copy.exists());
+    assert_eq!(text(), "# the work of another program", "the copy is another file");
+
+    type_number(&mut ui, "Corner x", "-0.8");
+    std::fs::write(&copy, "# changed, too").unwrap();
+    press(&mut ui, Key::S);
+    click(&mut ui, "Replace");
+    assert_eq!(SceneFile::open(&copy).unwrap().scene, *scene(&ui), "replaced");
+    press(&mut ui, Key::S);
+    assert_eq!(ui.state().dialog, None, "an unchanged file is saved without a question");
+}
