@@ -8,8 +8,14 @@ use egui::Context;
 use std::path::Path;
 
 impl Editor {
-    /// Opens a file dialog for this purpose.
+    /// Opens a file dialog for this purpose, unless one is open: its answer would get lost.
     pub(crate) fn ask_for_path(&mut self, ctx: &Context, purpose: Purpose) {
+        if let Some(open) = self.chooser.pending() {
+            // Only the answer to "Save scene" ends in leaving the scene.
+            self.after_save.take_if(|_| open.purpose != Purpose::SaveScene);
+            self.toasts.warning(format!("First answer the open file dialog \"{}\"", open.purpose.title()));
+            return;
+        }
         let request = Request { purpose, proposal: proposed(&self.document, purpose) };
         self.chooser.start(ctx, request);
     }

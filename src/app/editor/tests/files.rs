@@ -260,3 +260,18 @@ fn a_file_that_another_program_changed_is_replaced_only_after_a_question() {
     press(&mut ui, Key::S);
     assert_eq!(ui.state().dialog, None, "an unchanged file is saved without a question");
 }
+
+#[test]
+fn a_second_file_dialog_waits_for_the_answer_to_the_first() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    let path = folder.path().join("mine.toml");
+    let (confirm, confirmed) = std::sync::mpsc::channel();
+    let confirmed = std::sync::Mutex::new(confirmed);
+    ui.state_mut().chooser = Chooser::new(Arc::new(move |_: &Request| confirmed.lock().unwrap().recv().ok()));
+    press(&mut ui, Key::S);
+    press(&mut ui, Key::O);
+    assert!(ui.query_by_label_contains("First answer the open file dialog").is_some(), "the message");
+    confirm.send(path.clone()).unwrap();
+    wait_until(&mut ui, "the save", |_| path.exists());
+    assert!(ui.state().chooser.pending().is_none(), "no dialog is open");
+}
