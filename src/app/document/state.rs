@@ -71,9 +71,9 @@ impl Document {
         format!("{}{name}", if self.is_dirty() { "*" } else { "" })
     }
 
-    /// Changes the scene, and selects an added item. Edits with one key within one gesture make one undo step.
+    /// Changes the scene, and selects an added item, or the camera after a removal. Edits with one key within one gesture make one undo step.
     pub(crate) fn edit(&mut self, edit: Edit) {
-        let (key, added) = (edit.key(), edit.added_item(&self.file.scene));
+        let (key, selects) = (edit.key(), edit.selects(&self.file.scene));
         let mut scene = self.file.scene.clone();
         edit.apply(&mut scene);
         if scene == self.file.scene {
@@ -81,7 +81,7 @@ impl Document {
         }
         self.history.record((Arc::clone(&self.file), self.selection.clone()), key);
         self.file = Arc::new(SceneFile { scene, location: self.file.location.clone() });
-        let selection = added.map_or_else(|| std::mem::take(&mut self.selection), Selection::of);
+        let selection = selects.map_or_else(|| std::mem::take(&mut self.selection), Selection::of);
         self.selection = selection.within(&self.file.scene);
     }
 

@@ -67,9 +67,15 @@ impl Editor {
         }
     }
 
-    /// Deletes the selected item; warns where another item uses it.
+    /// Deletes the selected item; warns where another item uses it, and where control points are selected.
     fn delete(&mut self) {
         let item = self.document.selection.item;
+        if !self.document.selection.points.is_empty() {
+            self.toasts.warning(
+                "A patch keeps its 16 control points. To delete the object, select it by its square handle or in the list.",
+            );
+            return;
+        }
         let kind = if matches!(item, Item::Texture(_)) { "texture" } else { "material" };
         if let Some(user) = user_of(self.document.scene(), item) {
             self.toasts.warning(format!("\"{user}\" uses this {kind}"));

@@ -246,3 +246,22 @@ fn a_typed_coordinate_keeps_a_seam_closed() {
     assert!(handles::welded(bezier, point).len() > 1, "the point lies on a seam");
     assert_eq!(bezier.patches[0].points[3][3].y, 0.123, "the typed number");
 }
+
+#[test]
+fn delete_removes_no_object_for_a_selected_control_point_and_no_second_item() {
+    let mut ui = open("report");
+    let before = scene(&ui).clone();
+    ui.get_by_label("Control point P[1][2]").click();
+    ui.run_steps(2);
+    ui.key_press(Key::Delete);
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), before, "a control point stays");
+    assert!(ui.query_by_label_contains("keeps its 16 control points").is_some(), "the reason");
+    select(&mut ui, Item::Object(0));
+    for _ in 0..3 {
+        ui.key_press(Key::Delete);
+        ui.run_steps(2);
+    }
+    assert_eq!(scene(&ui).objects, before.objects[1..], "only the selected object is deleted");
+    assert_eq!(ui.state().document.selection.item, Item::Camera);
+}
