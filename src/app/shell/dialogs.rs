@@ -2,7 +2,7 @@
 
 use crate::app::commands::{Action, Answer, AppCommand, Next};
 use crate::app::files::PathField;
-use egui::{Context, DragValue, Grid, Id, Key, Modal, ScrollArea, TextEdit, Ui};
+use egui::{Button, Context, DragValue, Grid, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -50,7 +50,10 @@ fn unsaved_ui(ui: &mut Ui, title: &str, next: &Next, commands: &mut Vec<AppComma
     ui.label(format!("{} has unsaved changes. Save the changes before {before}?", title.trim_start_matches('*')));
     ui.add_space(8.0);
     ui.horizontal(|ui| {
-        for (label, answer) in [("Save", Answer::Save), ("Don't save", Answer::Discard), ("Cancel", Answer::Cancel)] {
+        if primary_ui(ui, "Save") {
+            commands.push(AppCommand::Answer(Answer::Save));
+        }
+        for (label, answer) in [("Don't save", Answer::Discard), ("Cancel", Answer::Cancel)] {
             if ui.button(label).clicked() {
                 commands.push(AppCommand::Answer(answer));
             }
@@ -67,7 +70,7 @@ fn changed_ui(ui: &mut Ui, path: &Path, commands: &mut Vec<AppCommand>) {
     ));
     ui.add_space(8.0);
     ui.horizontal(|ui| {
-        if ui.button("Save as…").clicked() {
+        if primary_ui(ui, "Save as…") {
             commands.push(AppCommand::Do(Action::SaveAs));
         }
         if ui.button("Replace").clicked() {
@@ -106,9 +109,7 @@ fn surface_ui(ui: &mut Ui, name: &str, steps: &mut usize, commands: &mut Vec<App
     });
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        let choose = ui.button("Choose file…");
-        let editing = ui.memory(|memory| memory.focused().is_some());
-        if choose.clicked() || (!editing && ui.input(|input| input.key_pressed(Key::Enter))) {
+        if primary_ui(ui, "Choose file…") {
             commands.extend(NonZeroUsize::new(*steps).map(AppCommand::ExportSurface));
         }
         if ui.button("Cancel").clicked() {
@@ -146,12 +147,19 @@ fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     close_ui(ui, commands);
 }
 
-/// A button that closes the dialog, as Enter does.
+/// A button that closes the dialog.
 fn close_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-    let unfocused = ui.memory(|memory| memory.focused().is_none());
-    if ui.button("Close").clicked() || (unfocused && ui.input(|input| input.key_pressed(Key::Enter))) {
+    if primary_ui(ui, "Close") {
         commands.push(AppCommand::CloseDialog);
     }
+}
+
+/// The first button of a dialog. Whether the user pressed it, or Enter while no widget has the keyboard.
+fn primary_ui(ui: &mut Ui, label: &str) -> bool {
+    let unfocused = ui.memory(|memory| memory.focused().is_none());
+    let selection = ui.visuals().selection;
+    let button = Button::new(RichText::new(label).color(selection.stroke.color)).fill(selection.bg_fill);
+    ui.add(button).clicked() || (unfocused && ui.input(|input| input.key_pressed(Key::Enter)))
 }
 
 /// Maximum height of a dialog's content, screen points, so that its title and buttons stay within the window.

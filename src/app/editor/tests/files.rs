@@ -275,3 +275,19 @@ fn a_second_file_dialog_waits_for_the_answer_to_the_first() {
     wait_until(&mut ui, "the save", |_| path.exists());
     assert!(ui.state().chooser.pending().is_none(), "no dialog is open");
 }
+
+#[test]
+fn enter_saves_the_changes_before_leaving() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    let path = folder.path().join("mine.toml");
+    answer_dialogs(&mut ui, Some(path.clone()));
+    edit(&mut ui);
+    // The keyboard focus of a field under the dialog does not take Enter.
+    ui.get_by_role_and_label(Role::TextInput, "Name").click();
+    ui.run_steps(2);
+    press(&mut ui, Key::N);
+    assert!(ui.query_by_label("Save the changes?").is_some(), "the dialog asks");
+    ui.key_press(Key::Enter);
+    ui.run_steps(2);
+    wait_until(&mut ui, "the save", |_| path.exists());
+}
