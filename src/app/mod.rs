@@ -8,6 +8,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `theme` | every colour of the window |
+//! | `keyboard` | corrections of egui's handling of keys |
 //! | `document` | the edited scene: selection, handles, edits, undo |
 //! | `commands` | every request of the user, as data |
 //! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |
@@ -24,6 +25,7 @@ mod commands;
 mod document;
 mod editor;
 mod files;
+mod keyboard;
 mod panels;
 mod rendering;
 mod shell;

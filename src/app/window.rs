@@ -2,6 +2,7 @@
 
 use crate::app::commands::{AppCommand, Next};
 use crate::app::editor::Editor;
+use crate::app::keyboard;
 use crate::app::theme;
 use crate::engine::{Engine, EngineError, EngineSettings};
 use crate::scene::SceneFile;
@@ -22,6 +23,7 @@ impl Window {
     /// Returns an error when the engine's thread or thread pool cannot start.
     pub(crate) fn new(creation: &CreationContext<'_>, file: SceneFile) -> Result<Self, EngineError> {
         theme::install(&creation.egui_ctx);
+        keyboard::install(&creation.egui_ctx);
         let ctx = creation.egui_ctx.clone();
         let engine = Engine::start(EngineSettings::default(), move || ctx.request_repaint())?;
         Ok(Self { editor: Editor::new(file), engine, title: String::new() })

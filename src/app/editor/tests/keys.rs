@@ -90,3 +90,35 @@ fn the_help_fits_in_a_small_window() {
     let close = ui.get_by_role_and_label(Role::Button, "Close").rect();
     assert!(close.max.y < 400.0, "the button is visible: {close}");
 }
+
+#[test]
+fn no_key_scales_the_interface() {
+    let mut ui = open("cornell");
+    ui.key_press(Key::F1);
+    ui.run_steps(3);
+    for key in [Key::Minus, Key::Plus, Key::Num0] {
+        press(&mut ui, key);
+        assert_eq!(ui.ctx.zoom_factor(), 1.0, "{key:?} under a dialog");
+    }
+}
+
+#[test]
+fn text_typed_in_the_frame_of_tab_is_kept() {
+    let mut ui = open("cornell");
+    ui.get_by_role_and_label(Role::SpinButton, "Corner x").click();
+    ui.run_steps(2);
+    ui.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    ui.run_steps(2);
+    let tab = egui::Event::Key {
+        key: Key::Tab,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    let text = |text: &str| egui::Event::Text(text.to_owned());
+    ui.input_mut().events.extend([text("1."), text("25"), tab.clone(), text("3.5"), tab]);
+    ui.run_steps(6);
+    let crate::scene::Shape::Quad { corner, .. } = scene(&ui).objects[0].shape else { panic!("a quad is selected") };
+    assert_eq!((corner.x, corner.y), (1.25, 3.5));
+}

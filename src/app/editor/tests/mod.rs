@@ -19,7 +19,7 @@ mod panels;
 use crate::app::editor::Editor;
 use crate::app::files::{Chooser, Request};
 use crate::app::shell::Dialog;
-use crate::app::theme;
+use crate::app::{keyboard, theme};
 use crate::engine::{Command, Counters, Energy, Frame, PassSeconds, PlanItem, PlanNote, PlanSummary, Stats, Status};
 use crate::film::LinearImage;
 use crate::math::Rgb;
@@ -41,7 +41,11 @@ fn open(scene: &str) -> Ui {
         editor.poll(ui.ctx());
         editor.ui(ui);
     };
-    let builder = Harness::builder().with_size([1280.0, 900.0]).with_context_setup(theme::install);
+    let install = |ctx: &egui::Context| {
+        theme::install(ctx);
+        keyboard::install(ctx);
+    };
+    let builder = Harness::builder().with_size([1280.0, 900.0]).with_context_setup(install);
     let mut ui = builder.build_ui_state(show, editor);
     // Panels settle their sizes within four frames.
     ui.run_steps(4);
