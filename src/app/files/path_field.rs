@@ -1,9 +1,11 @@
 //! A field for a typed path: where no file dialog is available, or where a chosen path did not work.
 
 use super::chooser::Request;
-use super::paths::complete;
+use super::paths::{complete, typed};
 use crate::app::commands::{AppCommand, Purpose};
 use crate::app::theme;
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
 use egui::{Button, Id, Key, Response, TextEdit, Ui};
 use std::path::{Path, PathBuf};
 
@@ -12,6 +14,10 @@ use std::path::{Path, PathBuf};
 pub(crate) struct PathField {
     pub(crate) purpose: Purpose,
     text: String,
+    /// The folder that a relative path starts at.
+    folder: PathBuf,
+    /// Whether the user has not typed yet: the first key replaces the text.
+    untouched: bool,
     /// The reason for typing, above the field.
     note: &'static str,
     /// The reason why the last entered path did not work.
@@ -23,13 +29,16 @@ impl PathField {
     pub(crate) fn instead_of_dialog(request: Request) -> Self {
         let note =
             "No file dialog is available: this desktop has neither xdg-desktop-portal nor zenity. Type the path here:";
-        let text = request.proposal.display().to_string();
-        Self { purpose: request.purpose, text, note, error: None }
+        let (purpose, text) = (request.purpose, request.proposal.display().to_string());
+        // To read a file, the proposal is a folder.
+        let parent = request.proposal.parent().filter(|_| purpose.writes()).map(Path::to_path_buf);
+        Self { purpose, text, folder: parent.unwrap_or(request.proposal), untouched: true, note, error: None }
     }
 
     /// A field to correct `path`, with the reason why it did not work.
     pub(crate) fn correcting(purpose: Purpose, path: &Path, error: Option<String>) -> Self {
-        Self { purpose, text: path.display().to_string(), note: "", error }
+        let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        Self { purpose, text: path.display().to_string(), folder, untouched: false, note: "", error }
     }
 
     /// The field with its buttons. Enter confirms, but replaces an existing file only after a second confirmation.
@@ -47,6 +56,9 @@ impl PathField {
         ui.horizontal(|ui| self.buttons_ui(ui, confirmed, replaced.is_some(), commands));
         if ui.memory(|memory| memory.focused().is_none()) {
             field.request_focus();
+            if self.untouched {
+                self.select_all(ui, field.id);
+            }
         }
     }
 
@@ -55,9 +67,17 @@ impl PathField {
         let field = TextEdit::singleline(&mut self.text).id(Id::unique("typed path")).desired_width(f32::INFINITY);
         let field = ui.add(field).accessible_name("Path");
         if field.changed() {
+            self.untouched = false;
             self.error = None;
         }
         field
+    }
+
+    fn select_all(&self, ui: &Ui, id: Id) {
+        let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+        let whole = CCursorRange::two(CCursor::new(0), CCursor::new(self.text.chars().count()));
+        state.cursor.set_char_range(Some(whole));
+        state.store(ui.ctx(), id);
     }
 
     /// The existing file that this path would replace; `None` for a new file, and for a file to read.
@@ -96,6 +116,6 @@ impl PathField {
     }
 
     fn path(&self) -> PathBuf {
-        PathBuf::from(self.text.trim())
+        typed(&self.text, &self.folder, std::env::home_dir())
     }
 }

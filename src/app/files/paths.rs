@@ -20,6 +20,16 @@ pub(crate) fn proposed(document: &Document, purpose: Purpose) -> PathBuf {
     folder.join(stem).with_extension(purpose.extensions()[0])
 }
 
+/// The path of a typed text: `~` stands for the home folder, and a relative path starts at `folder`.
+pub(super) fn typed(text: &str, folder: &Path, home: Option<PathBuf>) -> PathBuf {
+    let text = text.trim();
+    let below_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with('/'));
+    match below_home.zip(home) {
+        Some((rest, home)) => home.join(rest.trim_start_matches('/')),
+        None => folder.join(text),
+    }
+}
+
 /// The path, with the default extension appended where a file to write lacks an extension.
 ///
 /// # Errors
@@ -48,6 +58,13 @@ pub(crate) fn complete(purpose: Purpose, path: PathBuf) -> Result<PathBuf, Strin
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_typed_path_knows_the_home_folder_and_its_own_folder() {
+        let path = |text| typed(text, Path::new("/scenes"), Some("/home/ada".into())).display().to_string();
+        let paths = [path(" ~/a.toml "), path("~"), path("~ada/a"), path("b/c.toml"), path("/d.toml")];
+        assert_eq!(paths, ["/home/ada/a.toml", "/home/ada", "/scenes/~ada/a", "/scenes/b/c.toml", "/d.toml"]);
+    }
 
     #[test]
     fn a_missing_extension_is_appended_and_an_unknown_one_refused() {

@@ -291,3 +291,14 @@ fn enter_saves_the_changes_before_leaving() {
     ui.run_steps(2);
     wait_until(&mut ui, "the save", |_| path.exists());
 }
+
+#[test]
+fn typing_replaces_the_proposed_path() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    path_field(&mut ui, Key::S);
+    let path = folder.path().join("mine.toml");
+    focused(&ui).type_text(&path.display().to_string());
+    ui.run_steps(2);
+    let text = ui.get_by_role_and_label(Role::TextInput, "Path").value();
+    assert_eq!(text, Some(path.display().to_string()));
+}
