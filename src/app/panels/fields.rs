@@ -1,5 +1,6 @@
 //! Fields for names, numbers, vectors and colours. Assistive technology and tests find each field by its name.
 
+use super::expression;
 use crate::app::theme;
 use crate::math::Rgb;
 use crate::scene::Camera;
@@ -75,6 +76,7 @@ pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
                 let typing = ctx.memory(|memory| memory.has_focus(id));
                 if typing { value.to_string() } else { short(value, *decimals.start()) }
             })
+            .custom_parser(expression::value_of)
             .update_while_editing(false);
         let response = ui.add(field.clip_text(true)).accessible_name(name);
         if !spec.tip.is_empty() {

@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `numbers` | numbers as text: short, grouped, as a duration, in percent |
+//! | `expression` | arithmetic in number fields |
 //! | `fields` | fields for names, numbers, vectors and colours |
 //! | `control_points` | the 4 x 4 control points of a patch |
 //! | `lights` | the properties of a light |
@@ -18,6 +19,7 @@
 
 mod control_points;
 mod error_plot;
+mod expression;
 mod fields;
 mod lights;
 mod materials;

@@ -1,6 +1,7 @@
 //! The display settings, and the progress of rendering.
 
 use super::error_plot::error_plot_ui;
+use super::expression;
 use super::fields::rows;
 use super::numbers::{duration, grouped, percent, short, target_text};
 use super::plan::{plan_ui, warnings_ui};
@@ -78,7 +79,7 @@ fn target_ui(ui: &mut Ui, target: Option<f64>, commands: &mut Vec<AppCommand>) {
             .max_decimals(3)
             .update_while_editing(false)
             .custom_formatter(|percent, _| target_text(percent))
-            .custom_parser(|text| text.trim().trim_end_matches('%').trim().parse().ok());
+            .custom_parser(|text| expression::value_of(text.trim().trim_end_matches('%')));
         let field = ui.add(field).labelled_by(label.id);
         if field.on_hover_text("Rendering stops when the error is hardly above this; 0 never stops").changed() {
             commands.push(AppCommand::Target((percent > 0.0).then_some(0.01 * percent)));

@@ -265,3 +265,15 @@ fn delete_removes_no_object_for_a_selected_control_point_and_no_second_item() {
     assert_eq!(scene(&ui).objects, before.objects[1..], "only the selected object is deleted");
     assert_eq!(ui.state().document.selection.item, Item::Camera);
 }
+
+#[test]
+fn a_number_field_takes_arithmetic_and_decimal_commas_and_no_nan() {
+    let mut ui = open("report");
+    let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    select(&mut ui, Item::Object(ball));
+    for (text, expected) in [("0,25", 0.25), ("0.05+0.1", 0.05 + 0.1), ("nan", 0.05 + 0.1), ("1/0", 0.05 + 0.1)] {
+        type_number(&mut ui, "Radius", text);
+        let Shape::Sphere { radius, .. } = scene(&ui).objects[ball].shape else { panic!("a sphere") };
+        assert_eq!(radius, expected, "after {text}");
+    }
+}
