@@ -16,6 +16,8 @@ pub struct Film {
 impl Film {
     /// Most pixels along a side.
     pub const MOST_PIXELS: u32 = 16384;
+    /// Largest exposure in either direction, stops.
+    pub const MOST_EXPOSURE: f64 = 64.0;
 }
 
 impl Default for Film {

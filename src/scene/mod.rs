@@ -54,4 +54,4 @@ pub use problem::Problem;
 pub use render::Render;
 pub use surface_export::{SurfaceExport, SurfaceFormat};
 pub use texture::{Encoding, Texture, TextureUse};
-pub use validate::validate;
+pub use validate::{MAX_LENGTH, MAX_RADIANCE, MIN_LENGTH, validate};

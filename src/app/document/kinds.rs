@@ -30,6 +30,16 @@ pub(crate) fn emitter_kind(emitter: &Emitter) -> &'static str {
     }
 }
 
+/// Whether the light emits nothing.
+pub(crate) fn is_dark(emitter: &Emitter) -> bool {
+    let (Emitter::Point { intensity: strength, .. }
+    | Emitter::Sphere { radiance: strength, .. }
+    | Emitter::Quad { radiance: strength, .. }
+    | Emitter::Sun { irradiance: strength, .. }
+    | Emitter::Beam { power: strength, .. }) = emitter;
+    *strength == Rgb::ZERO
+}
+
 /// The name of a material's kind in the scene format.
 pub(crate) fn model_kind(model: &MaterialModel) -> &'static str {
     match model {

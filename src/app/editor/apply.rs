@@ -4,6 +4,7 @@ use super::state::Editor;
 use crate::app::commands::{Action, AppCommand, Next, Purpose};
 use crate::app::document::{Edit, Item, new_items, user_of};
 use crate::app::shell::Dialog;
+use crate::scene::Film;
 use egui::{Context, ViewportCommand};
 
 /// Factor of one step of the zoom keys.
@@ -86,7 +87,7 @@ impl Editor {
 
     fn expose(&mut self, stops: f64) {
         let mut film = self.document.scene().film;
-        film.exposure += stops;
+        film.exposure = (film.exposure + stops).clamp(-Film::MOST_EXPOSURE, Film::MOST_EXPOSURE);
         self.document.edit(Edit::Film(film));
     }
 

@@ -89,7 +89,7 @@ impl Editor {
         self.canvas.show(ui, &self.document, picture, commands);
         // Notices lie over the picture, so the picture stays in place when they come and go.
         ui.scope_builder(UiBuilder::new().max_rect(canvas), |ui| {
-            notices_ui(ui, self.rendering.status(), self.rendering.problems(), &self.chooser, commands);
+            notices_ui(ui, self.document.scene(), &self.rendering, &self.chooser, commands);
         });
     }
 }

@@ -3,7 +3,7 @@
 use super::expression;
 use crate::app::theme;
 use crate::math::Rgb;
-use crate::scene::Camera;
+use crate::scene::{Camera, MAX_LENGTH, MAX_RADIANCE, MIN_LENGTH};
 use egui::{ComboBox, DragValue, Grid, Layout, RichText, TextEdit, Ui, Vec2, vec2};
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -25,15 +25,29 @@ pub(super) struct Number {
 }
 
 impl Number {
-    /// A number of any sign.
+    /// A number of any sign, up to the largest coordinate of a valid scene.
     pub(super) fn any(speed: f64) -> Self {
-        // The limits lie far beyond every scene, and their squares are finite.
-        Self { unit: "", speed, range: -1e12..=1e12, tip: "" }
+        Self { unit: "", speed, range: -MAX_LENGTH..=MAX_LENGTH, tip: "" }
     }
 
     /// A number that cannot be negative.
     pub(super) fn positive(speed: f64) -> Self {
-        Self { range: 0.0..=1e12, ..Self::any(speed) }
+        Self::any(speed).within(0.0..=MAX_LENGTH)
+    }
+
+    /// A length above 0, scene units.
+    pub(super) fn length(speed: f64) -> Self {
+        Self::any(speed).within(MIN_LENGTH..=MAX_LENGTH)
+    }
+
+    /// A scale factor of either sign.
+    pub(super) fn factor(speed: f64) -> Self {
+        Self::any(speed).within(-1e6..=1e6)
+    }
+
+    /// The strength of a light, the background or an absorption coefficient.
+    pub(super) fn strength(speed: f64) -> Self {
+        Self::any(speed).within(0.0..=f64::from(MAX_RADIANCE))
     }
 
     pub(super) fn unit(self, unit: &'static str) -> Self {
@@ -165,7 +179,7 @@ pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'sta
     ui.label(name);
     let mut factor = decimal(peak);
     let speed = (0.01 * factor).max(0.001);
-    let spec = Number::positive(speed).unit(unit).tip("The largest of the red, green and blue values");
+    let spec = Number::strength(speed).unit(unit).tip("The largest of the red, green and blue values");
     ui.horizontal(|ui| number(ui, name, &mut factor, &spec));
     ui.end_row();
     let mut hue = if peak > 0.0 { *value / peak } else { Rgb::ONE };

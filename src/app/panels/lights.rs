@@ -32,7 +32,7 @@ fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, speed: f64) {
         }
         Emitter::Sphere { center, radius, radiance } => {
             vector_row(ui, "Centre", center, &length);
-            number_row(ui, "Radius", radius, &Number::positive(speed));
+            number_row(ui, "Radius", radius, &Number::length(speed));
             strength_row(ui, "Radiance", radiance, "W/sr/m²");
         }
         Emitter::Quad { corner, edge_u, edge_v, radiance } => {
@@ -49,7 +49,7 @@ fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, speed: f64) {
         Emitter::Beam { center, direction, radius, power } => {
             vector_row(ui, "Centre", center, &length);
             vector_row(ui, "Direction", direction, &component);
-            number_row(ui, "Radius", radius, &Number::positive(speed));
+            number_row(ui, "Radius", radius, &Number::length(speed));
             strength_row(ui, "Power", power, "W");
         }
     }

@@ -66,7 +66,7 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
             number_row(ui, "IOR", ior, &spec);
             surface_color_ui(ui, "Tint", tint, scene);
             ui.label("Absorption").on_hover_text("Absorption coefficient, per scene unit inside the glass");
-            ui.horizontal(|ui| color(ui, "Absorption", absorption, &Number::positive(0.01)));
+            ui.horizontal(|ui| color(ui, "Absorption", absorption, &Number::strength(0.01)));
             ui.end_row();
             priority_ui(ui, priority);
         }
@@ -107,7 +107,7 @@ fn texture_ui(ui: &mut Ui, name: &str, map: &mut TextureUse, scene: &Scene) {
     choice_row(ui, name, &mut map.texture, names);
     ui.label("");
     ui.horizontal(|ui| {
-        let spec = Number::any(0.02).tip("Repetitions of the texture along u and v");
+        let spec = Number::factor(0.02).tip("Repetitions of the texture along u and v");
         ui.weak("repeat u");
         number(ui, &format!("{name} repeat u"), &mut map.scale.x, &spec);
         ui.weak("v");
@@ -138,7 +138,7 @@ fn relief_ui(ui: &mut Ui, relief: &mut Option<Relief>, scene: &Scene) {
     match relief {
         Some(Relief::Normal { map, strength }) => {
             texture_ui(ui, "Normal map", map, scene);
-            number_row(ui, "Strength", strength, &Number::any(0.01));
+            number_row(ui, "Strength", strength, &Number::any(0.01).within(-1e3..=1e3));
         }
         Some(Relief::Height { map, depth }) => {
             texture_ui(ui, "Height map", map, scene);

@@ -67,7 +67,7 @@ fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {
         }
         Shape::Sphere { center, radius } => {
             vector_row(ui, "Centre", center, &length);
-            number_row(ui, "Radius", radius, &Number::positive(speed));
+            number_row(ui, "Radius", radius, &Number::length(speed));
         }
         Shape::Plane { point, normal, u_axis } => {
             vector_row(ui, "Point", point, &length);
@@ -97,5 +97,5 @@ fn u_axis_ui(ui: &mut Ui, u_axis: &mut Option<DVec3>) {
 fn transform_ui(ui: &mut Ui, transform: &mut Transform, speed: f64) {
     vector_row(ui, "Translate", &mut transform.translate, &Number::any(speed));
     vector_row(ui, "Rotate", &mut transform.rotate, &Number::any(0.5).unit("°"));
-    vector_row(ui, "Scale", &mut transform.scale, &Number::any(0.005));
+    vector_row(ui, "Scale", &mut transform.scale, &Number::factor(0.005));
 }

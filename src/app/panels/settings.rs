@@ -100,6 +100,6 @@ fn render_ui(ui: &mut Ui, render: &mut Render) {
         .on_hover_text("Maximum scattering events on a path; 1 renders direct light only");
     ui.end_row();
     ui.label("Background");
-    ui.horizontal(|ui| color(ui, "Background", &mut render.background, &Number::positive(0.005)));
+    ui.horizontal(|ui| color(ui, "Background", &mut render.background, &Number::strength(0.005)));
     ui.end_row();
 }

@@ -3,7 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `menu` | the menu bar, with buttons for frequent actions |
-//! | `notices` | messages over the picture: failures, problems of the scene, a slow file dialog |
+//! | `notices` | messages over the picture: failures, problems of the scene, a lack of light, a slow file dialog |
 //! | `status_bar` | engine status, counts, the pixel under the pointer, the zoom |
 //! | `dialogs` | modal dialogs: unsaved changes, errors, paths, surface export, help |
 

@@ -1,28 +1,34 @@
-//! Messages over the picture: failures, problems of the scene, a slow file dialog.
+//! Messages over the picture: failures, problems of the scene, a lack of light, a slow file dialog.
 
 use crate::app::commands::AppCommand;
+use crate::app::document::kinds;
 use crate::app::files::{Chooser, Request};
+use crate::app::rendering::Rendering;
 use crate::app::theme;
 use crate::engine::Status;
-use crate::scene::Problem;
+use crate::math::Rgb;
+use crate::scene::{Problem, Scene};
 use egui::{Color32, Frame, ScrollArea, Ui};
 
 /// Maximum height of the list of problems, screen points: the picture stays visible.
 const MAX_HEIGHT: f32 = 120.0;
 
-/// Shows a failure of the engine, the problems that keep the scene from being rendered, and a slow file dialog.
+/// Shows a failure of the engine, the problems that keep the scene from being rendered, the lack of light, and a slow file
+/// dialog.
 pub(crate) fn notices_ui(
     ui: &mut Ui,
-    status: &Status,
-    problems: &[Problem],
+    scene: &Scene,
+    rendering: &Rendering,
     chooser: &Chooser,
     commands: &mut Vec<AppCommand>,
 ) {
-    if let Status::Failed(message) = status {
+    if let Status::Failed(message) = rendering.status() {
         failure_ui(ui, message);
     }
-    if !problems.is_empty() {
-        problems_ui(ui, problems);
+    if !rendering.problems().is_empty() {
+        problems_ui(ui, rendering.problems());
+    } else if is_unlit(scene) {
+        unlit_ui(ui);
     }
     if let Some(request) = chooser.pending().filter(|_| chooser.is_slow(ui.ctx())) {
         slow_dialog_ui(ui, request, commands);
@@ -46,6 +52,21 @@ fn problems_ui(ui: &mut Ui, problems: &[Problem]) {
                 ui.label(problem.to_string());
             }
         });
+    });
+}
+
+/// Whether no light of the scene shines, and its background is black.
+fn is_unlit(scene: &Scene) -> bool {
+    scene.render.background == Rgb::ZERO && scene.lights.iter().all(|light| kinds::is_dark(&light.emitter))
+}
+
+fn unlit_ui(ui: &mut Ui) {
+    let color = theme::palette(ui.visuals().dark_mode).warning;
+    notice_ui(ui, color, |ui| {
+        ui.colored_label(color, "⚠ The picture is black, because the scene has no light.");
+        ui.label(
+            "Add a light or make a light stronger under \"Lights\", or set a background under \"Picture and rendering\".",
+        );
     });
 }
 

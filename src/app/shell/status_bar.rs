@@ -32,13 +32,15 @@ pub(crate) fn status_bar_ui(ui: &mut Ui, film: &Film, rendering: &Rendering, can
 fn status_text(ui: &Ui, rendering: &Rendering) -> (&'static str, Color32) {
     let palette = theme::palette(ui.visuals().dark_mode);
     match rendering.status() {
+        Status::Failed(_) => ("Failed", palette.error),
+        // The engine still renders the last valid scene.
+        _ if !rendering.problems().is_empty() => ("Waiting for a valid scene", palette.warning),
         Status::Idle => ("Idle", ui.visuals().weak_text_color()),
         Status::Preparing => ("Preparing", palette.warning),
         Status::Rendering if rendering.is_paused() => ("Pausing after this iteration", palette.warning),
         Status::Rendering => ("Rendering", palette.success),
         Status::Paused => ("Paused", palette.warning),
         Status::Converged => ("Converged", palette.success),
-        Status::Failed(_) => ("Failed", palette.error),
     }
 }
 

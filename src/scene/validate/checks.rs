@@ -6,13 +6,13 @@ use glam::DVec3;
 use std::collections::BTreeSet;
 
 /// The largest coordinate: its cube in f64, and the square of a transformed coordinate in f32, are far from overflow.
-pub(super) const MAX_LENGTH: f64 = 1e9;
+pub const MAX_LENGTH: f64 = 1e9;
 
 /// The smallest length of a vector that must have a direction: its square is far from underflow in f32.
-pub(super) const MIN_LENGTH: f64 = 1e-9;
+pub const MIN_LENGTH: f64 = 1e-9;
 
 /// The largest radiance: its sums and products are far from overflow in f32.
-const MAX_RADIANCE: f32 = 1e12;
+pub const MAX_RADIANCE: f32 = 1e12;
 
 /// Problems of a scene up to which messages suggest names: each suggestion compares a name with all others.
 const MOST_SUGGESTIONS: usize = 100;

@@ -15,7 +15,8 @@ mod names;
 mod shape;
 
 use super::{Camera, Film, Problem, Render, Scene, Texture};
-use checks::{Checks, MIN_LENGTH, parallel};
+use checks::{Checks, parallel};
+pub use checks::{MAX_LENGTH, MAX_RADIANCE, MIN_LENGTH};
 use names::Names;
 use std::collections::HashSet;
 
@@ -78,7 +79,7 @@ fn film(film: &Film, checks: &mut Checks<'_>) {
             format!("found {pixels}, expected 1 to {} pixels", Film::MOST_PIXELS)
         });
     }
-    checks.within("exposure", film.exposure, -64.0, 64.0);
+    checks.within("exposure", film.exposure, -Film::MOST_EXPOSURE, Film::MOST_EXPOSURE);
 }
 
 fn render(render: &Render, checks: &mut Checks<'_>) {

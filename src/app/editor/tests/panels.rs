@@ -277,3 +277,39 @@ fn a_number_field_takes_arithmetic_and_decimal_commas_and_no_nan() {
         assert_eq!(radius, expected, "after {text}");
     }
 }
+
+#[test]
+fn a_field_takes_no_number_that_the_scene_cannot_hold() {
+    let mut ui = open("report");
+    let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    select(&mut ui, Item::Object(ball));
+    for (field, text) in [("Radius", "-1"), ("Radius", "1e300"), ("Centre x", "-1e12")] {
+        type_number(&mut ui, field, text);
+        assert!(ui.state().rendering.problems().is_empty(), "{field} {text}: {:?}", ui.state().rendering.problems());
+    }
+    select(&mut ui, Item::Light(0));
+    type_number(&mut ui, "Intensity", "1e30");
+    assert!(ui.state().rendering.problems().is_empty(), "{:?}", ui.state().rendering.problems());
+}
+
+#[test]
+fn the_status_of_an_invalid_scene_is_not_rendering() {
+    let mut ui = open("report");
+    ui.state_mut().rendering.receive(None, Status::Rendering);
+    ui.run_steps(2);
+    assert!(ui.query_by_label("Rendering").is_some(), "a valid scene");
+    type_number(&mut ui, "Scale x", "0");
+    assert!(ui.query_by_label("Rendering").is_none() && ui.query_by_label("Waiting for a valid scene").is_some());
+}
+
+#[test]
+fn a_scene_without_light_says_so() {
+    let mut ui = open("report");
+    select(&mut ui, Item::Light(0));
+    assert!(ui.query_by_label_contains("no light").is_none(), "the lamp shines");
+    type_number(&mut ui, "Intensity", "0");
+    assert!(ui.query_by_label_contains("no light").is_some(), "the lamp is off");
+    ui.key_press(Key::Delete);
+    ui.run_steps(2);
+    assert!(scene(&ui).lights.is_empty() && ui.query_by_label_contains("no light").is_some(), "no lamp");
+}
