@@ -1,6 +1,7 @@
 //! Every change that the window can make to a scene, as data.
 
 use super::handles::{self, Handle};
+use super::names::free_name;
 use super::selection::{Item, PointIndex};
 use crate::scene::{Camera, Color, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Texture};
 use glam::DVec3;
@@ -83,6 +84,23 @@ impl Edit {
         })
     }
 
+    /// Replaces a name that another item of the kind has by a free one, and returns the free one; `None` where the name stays.
+    /// With two items of one name, a material's users could not be told apart.
+    pub(crate) fn free_its_name(&mut self, scene: &Scene) -> Option<String> {
+        let (item, name) = match self {
+            Self::Object(index, object) => (Item::Object(*index), &mut object.name),
+            Self::Material(index, material) => (Item::Material(*index), &mut material.name),
+            Self::Light(index, light) => (Item::Light(*index), &mut light.name),
+            Self::Texture(index, texture) => (Item::Texture(*index), &mut texture.name),
+            _ => return None,
+        };
+        let free = free_name(scene, item, name);
+        (free != *name).then(|| {
+            name.clone_from(&free);
+            free
+        })
+    }
+
     /// Changes the scene. An index beyond the end of its list has no effect.
     pub(crate) fn apply(self, scene: &mut Scene) {
         match self {
@@ -145,7 +163,7 @@ pub(crate) fn user_of(scene: &Scene, item: Item) -> Option<&str> {
 }
 
 /// The texture names in a material, of its colours and its relief map.
-fn texture_names(material: &mut Material) -> Vec<&mut String> {
+pub(crate) fn texture_names(material: &mut Material) -> Vec<&mut String> {
     let colors = match &mut material.model {
         MaterialModel::Diffuse { albedo } => vec![albedo],
         MaterialModel::Phong { albedo, specular, .. } => vec![albedo, specular],

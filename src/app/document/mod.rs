@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `selection` | the selected item and control points |
+//! | `names` | names that are unique among the items of a kind |
 //! | `handles` | the draggable points of a scene: which exist, where they lie, how they move |
 //! | `edit` | [`Edit`]: every change of a scene, as data |
 //! | `history` | undo and redo of whole states |
@@ -15,12 +16,13 @@ mod edit;
 pub(crate) mod handles;
 mod history;
 pub(crate) mod kinds;
+mod names;
 pub(crate) mod new_items;
 mod selection;
 mod stamp;
 mod state;
 
-pub(crate) use edit::{Edit, user_of};
+pub(crate) use edit::{Edit, texture_names, user_of};
 pub(crate) use handles::Handle;
 pub(crate) use selection::{Item, PointIndex, Selection};
 pub(crate) use state::Document;

@@ -2,6 +2,7 @@
 
 use super::edit::Edit;
 use super::kinds::{MODEL_KINDS, emitter_like, model_like};
+use super::names::free_name;
 use super::selection::Item;
 use crate::geometry::bezier::ControlNet;
 use crate::math::Rgb;
@@ -69,7 +70,7 @@ pub(crate) fn material(scene: &Scene, kind: &str, model: MaterialModel) -> Mater
 
 /// A new sRGB texture of an image file, under a free name made from the file's name.
 pub(crate) fn texture(scene: &Scene, path: &Path) -> Texture {
-    let name = free_name(&stem(path, "texture"), |name| scene.textures.iter().any(|texture| texture.name == name));
+    let name = free_name(scene, Item::Texture(scene.textures.len()), &stem(path, "texture"));
     Texture { name, file: absolute(path), encoding: Encoding::Srgb }
 }
 
@@ -152,34 +153,13 @@ fn size(scene: &Scene) -> f64 {
 }
 
 fn object_name(scene: &Scene, wanted: &str) -> String {
-    free_name(wanted, |name| scene.objects.iter().any(|object| object.name == name))
+    free_name(scene, Item::Object(scene.objects.len()), wanted)
 }
 
 fn light_name(scene: &Scene, wanted: &str) -> String {
-    free_name(wanted, |name| scene.lights.iter().any(|light| light.name == name))
+    free_name(scene, Item::Light(scene.lights.len()), wanted)
 }
 
 fn material_name(scene: &Scene, wanted: &str) -> String {
-    free_name(wanted, |name| scene.materials.iter().any(|material| material.name == name))
-}
-
-/// `wanted`, or its stem with the first number from 2 that makes the name free.
-fn free_name(wanted: &str, taken: impl Fn(&str) -> bool) -> String {
-    if !taken(wanted) {
-        return wanted.to_owned();
-    }
-    let stem = wanted.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end();
-    (2_u64..).map(|number| format!("{stem} {number}")).find(|name| !taken(name)).unwrap_or_default()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_new_name_is_free() {
-        let taken = ["ball", "ball 2", "lamp"];
-        let free = |wanted| free_name(wanted, |name| taken.contains(&name));
-        assert_eq!([free("cube"), free("ball"), free("ball 2"), free("lamp")], ["cube", "ball 3", "ball 3", "lamp 2"]);
-    }
+    free_name(scene, Item::Material(scene.materials.len()), wanted)
 }

@@ -17,7 +17,7 @@ impl Editor {
     pub(crate) fn apply(&mut self, ctx: &Context, command: AppCommand) {
         match command {
             AppCommand::Do(action) => self.act(ctx, action),
-            AppCommand::Edit(edit) => self.document.edit(edit),
+            AppCommand::Edit(edit) => self.edit(edit),
             AppCommand::Select(selection) => self.document.selection = selection.within(self.document.scene()),
             AppCommand::AddFrom(purpose) => self.ask_for_path(ctx, purpose),
             AppCommand::Drop(path) => self.use_path(ctx, Purpose::of_dropped(&path), path),
@@ -60,6 +60,14 @@ impl Editor {
             Action::FullScreen => toggle_full_screen(ctx),
             Action::Help => self.dialog = Some(Dialog::Help),
         }
+    }
+
+    /// Edits the scene. A name that another item has becomes a free name, with a message.
+    fn edit(&mut self, mut edit: Edit) {
+        if let Some(free) = edit.free_its_name(self.document.scene()) {
+            self.toasts.info(format!("This name is taken, so the new name is \"{free}\""));
+        }
+        self.document.edit(edit);
     }
 
     fn duplicate(&mut self) {

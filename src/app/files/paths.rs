@@ -63,7 +63,7 @@ mod tests {
     fn a_typed_path_knows_the_home_folder_and_its_own_folder() {
         let path = |text| typed(text, Path::new("/scenes"), Some("/home/ada".into())).display().to_string();
         let paths = [path(" ~/a.toml "), path("~"), path("~ada/a"), path("b/c.toml"), path("/d.toml")];
-        assert_eq!(paths, ["/home/ada/a.toml", "/home/ada", "/scenes/~ada/a", "/scenes/b/c.toml", "/d.toml"]);
+        assert_eq!(paths, ["/home/ada/a.toml", "/home/ada/", "/scenes/~ada/a", "/scenes/b/c.toml", "/d.toml"]);
     }
 
     #[test]

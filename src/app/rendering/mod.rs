@@ -2,6 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `same_picture` | whether two scenes have the same picture |
 //! | `submission` | the scene that the engine renders, and the problems that keep a scene from it |
 //! | `error_curve` | [`ErrorCurve`]: the error estimate over time |
 //! | `state` | [`Rendering`]: the newest frame, the engine's status, the commands for the engine |
@@ -9,6 +10,7 @@
 
 mod display;
 mod error_curve;
+mod same_picture;
 mod state;
 mod submission;
 

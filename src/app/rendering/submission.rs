@@ -1,5 +1,6 @@
 //! The scene that the engine renders, and the problems that keep a scene from it.
 
+use super::same_picture::same_picture;
 use crate::scene::{Problem, SceneFile, validate};
 use std::sync::Arc;
 
@@ -41,17 +42,6 @@ impl Submission {
     pub(crate) fn problems(&self) -> &[Problem] {
         &self.problems
     }
-}
-
-/// Whether two scenes have the same radiance in every pixel. The scene's name and the display settings do not matter.
-fn same_picture(a: &SceneFile, b: &SceneFile) -> bool {
-    let without_display = |file: &SceneFile| {
-        let mut scene = file.scene.clone();
-        scene.name.clear();
-        (scene.film.exposure, scene.film.tone_curve) = Default::default();
-        scene
-    };
-    a.location == b.location && without_display(a) == without_display(b)
 }
 
 #[cfg(test)]
