@@ -26,11 +26,12 @@ impl Purpose {
         }
     }
 
-    /// The purpose of a file that was dropped onto the window, by its extension; an unknown extension means a scene.
-    pub(crate) fn of_dropped(path: &Path) -> Self {
+    /// The purpose of a file that is dropped onto the window, by its extension; `None` for an extension that the window
+    /// cannot read.
+    pub(crate) fn of_dropped(path: &Path) -> Option<Self> {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
         let allows = |purpose: &Self| purpose.extensions().iter().any(|known| extension.as_deref() == Some(known));
-        [Self::AddSurface, Self::AddTexture].into_iter().find(allows).unwrap_or(Self::OpenScene)
+        [Self::OpenScene, Self::AddSurface, Self::AddTexture].into_iter().find(allows)
     }
 
     /// Whether the file is written, not read.

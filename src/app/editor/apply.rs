@@ -20,7 +20,7 @@ impl Editor {
             AppCommand::Edit(edit) => self.edit(edit),
             AppCommand::Select(selection) => self.document.selection = selection.within(self.document.scene()),
             AppCommand::AddFrom(purpose) => self.ask_for_path(ctx, purpose),
-            AppCommand::Drop(path) => self.use_path(ctx, Purpose::of_dropped(&path), path),
+            AppCommand::Drop(path) => self.drop_file(ctx, path),
             AppCommand::CancelDrag => self.document.abandon_gesture(),
             AppCommand::Leave(next) => self.leave(ctx, next),
             AppCommand::Answer(answer) => self.answer(ctx, answer),

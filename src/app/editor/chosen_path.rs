@@ -4,7 +4,7 @@ use super::state::Editor;
 use crate::app::commands::{Next, Purpose};
 use crate::app::document::{Edit, new_items};
 use crate::app::files::{Outcome, PathField, Request, complete, surface_of};
-use crate::app::shell::Dialog;
+use crate::app::shell::{Dialog, drop_hint};
 use egui::Context;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -61,6 +61,16 @@ impl Editor {
             Purpose::AddTexture => {
                 let texture = new_items::texture(self.document.scene(), &path);
                 self.document.edit(Edit::AddTexture(texture));
+            }
+        }
+    }
+
+    /// Uses a file that was dropped onto the window; warns where the window cannot read it.
+    pub(crate) fn drop_file(&mut self, ctx: &Context, path: PathBuf) {
+        match Purpose::of_dropped(&path) {
+            Some(purpose) => self.use_path(ctx, purpose, path),
+            None => {
+                self.toasts.warning(format!("{} cannot be opened. {}", path.display(), drop_hint(None)));
             }
         }
     }

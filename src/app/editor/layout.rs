@@ -4,7 +4,7 @@ use super::state::Editor;
 use crate::app::canvas::Picture;
 use crate::app::commands::{AppCommand, action};
 use crate::app::panels::{outline_ui, progress_ui, properties_ui};
-use crate::app::shell::{Visibility, dialog_ui, menu_ui, notices_ui, status_bar_ui};
+use crate::app::shell::{Visibility, dialog_ui, drop_hint_ui, menu_ui, notices_ui, status_bar_ui};
 use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 
 /// Height of the outline, screen points: it fits every section of a scene with ten objects.
@@ -42,6 +42,7 @@ impl Editor {
         if let Some(dialog) = &mut self.dialog {
             dialog_ui(ui.ctx(), dialog, &self.document.title(), &mut commands);
         }
+        drop_hint_ui(ui.ctx());
         self.toasts.show(ui.ctx());
         for command in commands {
             self.apply(ui.ctx(), command);

@@ -9,9 +9,15 @@ use egui::{Context, ViewportCommand};
 use std::path::{Path, PathBuf};
 
 impl Editor {
-    /// Leaves the present scene, or asks first while changes are unsaved.
+    /// Leaves the present scene, or asks first while changes are unsaved. A scene that does not open is reported without a
+    /// question.
     pub(crate) fn leave(&mut self, ctx: &Context, next: Next) {
-        if self.document.is_dirty() {
+        if let Next::Open(path) = &next
+            && self.document.is_dirty()
+            && let Err(error) = SceneFile::open(path)
+        {
+            self.report(&path.display().to_string(), &error);
+        } else if self.document.is_dirty() {
             self.dialog = Some(Dialog::Unsaved(next));
         } else {
             self.proceed(ctx, next);
@@ -87,8 +93,12 @@ impl Editor {
     fn open(&mut self, opened: Result<SceneFile, SceneError>, name: &str) {
         match opened {
             Ok(file) => self.show(file),
-            Err(error) => self.dialog = Some(Dialog::Error(format!("{name} cannot be opened"), error.to_string())),
+            Err(error) => self.report(name, &error),
         }
+    }
+
+    fn report(&mut self, name: &str, error: &SceneError) {
+        self.dialog = Some(Dialog::Error(format!("{name} cannot be opened"), error.to_string()));
     }
 
     /// Replaces the document by another scene, and shows the whole picture.

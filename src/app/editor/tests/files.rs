@@ -82,7 +82,7 @@ fn unsaved_changes_are_never_discarded_unasked() {
     click(&mut ui, "Cancel");
     assert_eq!(*scene(&ui), edited, "cancelling keeps the scene");
 
-    for next in [Next::Quit, Next::Example("water"), Next::Open("a.toml".into())] {
+    for next in [Next::Quit, Next::Example("water"), Next::Open("scenes/teapot.toml".into())] {
         let ctx = ui.ctx.clone();
         ui.state_mut().apply(&ctx, AppCommand::Leave(next.clone()));
         ui.run_steps(2);
@@ -301,4 +301,16 @@ fn typing_replaces_the_proposed_path() {
     ui.run_steps(2);
     let text = ui.get_by_role_and_label(Role::TextInput, "Path").value();
     assert_eq!(text, Some(path.display().to_string()));
+}
+
+#[test]
+fn a_dropped_file_that_cannot_be_opened_asks_no_question() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    edit(&mut ui);
+    drop_file(&mut ui, "picture.exr".into());
+    assert_eq!((ui.state().toasts.len(), &ui.state().dialog), (1, &None), "a message, no question");
+    let broken = folder.path().join("broken.toml");
+    std::fs::write(&broken, "version = \"one\"").unwrap();
+    drop_file(&mut ui, broken);
+    assert!(matches!(ui.state().dialog, Some(Dialog::Error(..))), "{:?}", ui.state().dialog);
 }
