@@ -60,18 +60,27 @@ impl Location {
     ///
     /// A message, if the file cannot be read or decoded, or has too many pixels.
     pub fn read_picture(&self, relative: &str) -> Result<DynamicImage, String> {
-        let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
-        let reader = || ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
-        let damaged = |e: ImageError| format!("\"{relative}\" is not a valid PNG or JPEG image: {e}");
-        let (width, height) = reader().map_err(|e| damaged(e.into()))?.into_dimensions().map_err(damaged)?;
-        if u64::from(width) * u64::from(height) > MAX_TEXELS {
-            return Err(format!("\"{relative}\" has {width} x {height} pixels, expected at most 8192 x 8192"));
-        }
-        let mut decoder = reader().map_err(|e| damaged(e.into()))?.into_decoder().map_err(damaged)?;
+        let bytes = self.read_bytes(relative)?;
+        check_size(relative, &bytes)?;
+        let damaged = |e: ImageError| damaged(relative, &e);
+        let mut decoder = reader(&bytes).map_err(|e| damaged(e.into()))?.into_decoder().map_err(damaged)?;
         let orientation = decoder.orientation().map_err(damaged)?;
         let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
         picture.apply_orientation(orientation);
         Ok(picture)
+    }
+
+    /// Reads the header of the PNG or JPEG file that the scene names.
+    ///
+    /// # Errors
+    ///
+    /// A message, if the file cannot be read, is neither PNG nor JPEG, or has too many pixels.
+    pub fn check_picture(&self, relative: &str) -> Result<(), String> {
+        check_size(relative, &self.read_bytes(relative)?)
+    }
+
+    fn read_bytes(&self, relative: &str) -> Result<Cow<'static, [u8]>, String> {
+        self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))
     }
 
     /// The path of a file that the scene names; `None` for a file inside the program.
@@ -115,6 +124,24 @@ impl Location {
             Self::Unsaved => "unsaved scene".to_owned(),
         }
     }
+}
+
+fn reader(bytes: &[u8]) -> io::Result<ImageReader<Cursor<&[u8]>>> {
+    ImageReader::new(Cursor::new(bytes)).with_guessed_format()
+}
+
+fn damaged(relative: &str, error: &ImageError) -> String {
+    format!("\"{relative}\" is not a valid PNG or JPEG image: {error}")
+}
+
+/// Checks the number of pixels by the header of a PNG or JPEG file.
+fn check_size(relative: &str, bytes: &[u8]) -> Result<(), String> {
+    let damaged = |e: ImageError| damaged(relative, &e);
+    let (width, height) = reader(bytes).map_err(|e| damaged(e.into()))?.into_dimensions().map_err(damaged)?;
+    if u64::from(width) * u64::from(height) > MAX_TEXELS {
+        return Err(format!("\"{relative}\" has {width} x {height} pixels, expected at most 8192 x 8192"));
+    }
+    Ok(())
 }
 
 /// The path relative to `folder`, or the absolute path where no relative path exists. Separated by `/` on every system.

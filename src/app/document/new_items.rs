@@ -69,9 +69,14 @@ pub(crate) fn material(scene: &Scene, kind: &str, model: MaterialModel) -> Mater
 }
 
 /// A new sRGB texture of an image file, under a free name made from the file's name.
-pub(crate) fn texture(scene: &Scene, path: &Path) -> Texture {
+///
+/// # Errors
+/// Returns a message when the file is no PNG or JPEG image.
+pub(crate) fn texture(scene: &Scene, path: &Path) -> Result<Texture, String> {
+    let file = absolute(path);
+    Location::Unsaved.check_picture(&file)?;
     let name = free_name(scene, Item::Texture(scene.textures.len()), &stem(path, "texture"));
-    Texture { name, file: absolute(path), encoding: Encoding::Srgb }
+    Ok(Texture { name, file, encoding: Encoding::Srgb })
 }
 
 /// A new object of the patches in a `.bpt` file, under a free name made from the file's name.

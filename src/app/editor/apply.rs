@@ -62,8 +62,15 @@ impl Editor {
         }
     }
 
-    /// Edits the scene. A name that another item has becomes a free name, with a message.
+    /// Edits the scene. A name that another item has becomes a free name, with a message; a texture's file that is no
+    /// picture gets a message.
     fn edit(&mut self, mut edit: Edit) {
+        if let Edit::Texture(index, texture) = &edit
+            && self.document.scene().textures.get(*index).is_some_and(|before| before.file != texture.file)
+            && let Err(error) = self.document.file().location.check_picture(&texture.file)
+        {
+            self.toasts.warning(error);
+        }
         if let Some(free) = edit.free_its_name(self.document.scene()) {
             self.toasts.info(format!("This name is taken, so the new name is \"{free}\""));
         }

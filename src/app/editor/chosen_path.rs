@@ -58,10 +58,10 @@ impl Editor {
                 Ok(object) => self.document.edit(Edit::AddObject(object)),
                 Err(error) => self.dialog = Some(Dialog::Error("The patches cannot be added".to_owned(), error)),
             },
-            Purpose::AddTexture => {
-                let texture = new_items::texture(self.document.scene(), &path);
-                self.document.edit(Edit::AddTexture(texture));
-            }
+            Purpose::AddTexture => match new_items::texture(self.document.scene(), &path) {
+                Ok(texture) => self.document.edit(Edit::AddTexture(texture)),
+                Err(error) => self.dialog = Some(Dialog::Error("The texture cannot be added".to_owned(), error)),
+            },
         }
     }
 

@@ -212,12 +212,25 @@ fn a_dropped_bpt_file_becomes_an_object_that_names_the_file() {
 
 #[test]
 fn a_dropped_picture_becomes_a_texture_and_a_dropped_scene_is_opened() {
-    let mut ui = open("cornell");
+    let (mut ui, folder) = (open("cornell"), folder());
     drop_file(&mut ui, "scenes/teapot.toml".into());
     assert_eq!(ui.state().document.file().location, Location::Disk("scenes/teapot.toml".into()));
     let before = scene(&ui).textures.len();
-    drop_file(&mut ui, "picture.PNG".into());
+    let (picture, text) = (folder.path().join("picture.PNG"), folder.path().join("text.png"));
+    image::RgbImage::new(2, 2).save(&picture).unwrap();
+    std::fs::write(&text, "no picture").unwrap();
+    drop_file(&mut ui, picture);
     assert_eq!((scene(&ui).textures.len(), scene(&ui).textures[before].name.as_str()), (before + 1, "picture"));
+    drop_file(&mut ui, text.clone());
+    let said = matches!(&ui.state().dialog, Some(Dialog::Error(_, text)) if text.contains("not a valid PNG or JPEG"));
+    assert!(said, "{:?}", ui.state().dialog);
+    assert_eq!(scene(&ui).textures.len(), before + 1, "a file of text is no texture");
+    click(&mut ui, "Close");
+    let mut texture = scene(&ui).textures[before].clone();
+    texture.file = text.display().to_string();
+    let ctx = ui.ctx.clone();
+    ui.state_mut().apply(&ctx, AppCommand::Edit(crate::app::document::Edit::Texture(before, texture)));
+    assert_eq!(ui.state().toasts.len(), 1, "a typed file that is no picture gets a message");
 }
 
 #[test]
