@@ -173,8 +173,9 @@ fn decimal(value: f32) -> f64 {
     value.to_string().parse().unwrap_or_else(|_| f64::from(value))
 }
 
-/// Two rows for a light's intensity or radiance: its largest channel, and a colour whose largest channel is 1.
-pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'static str) {
+/// Two rows for the intensity or radiance of the light `owner`: its largest channel, and a colour whose largest channel is 1.
+/// The window remembers the colour of a light of strength 0.
+pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'static str, owner: &str) {
     let peak = value.max_element();
     ui.label(name);
     let mut factor = decimal(peak);
@@ -182,9 +183,14 @@ pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'sta
     let spec = Number::strength(speed).unit(unit).tip("The largest of the red, green and blue values");
     ui.horizontal(|ui| number(ui, name, &mut factor, &spec));
     ui.end_row();
-    let mut hue = if peak > 0.0 { *value / peak } else { Rgb::ONE };
+    let remembered = ui.make_persistent_id(("colour", owner));
+    let mut hue = match ui.data(|data| data.get_temp(remembered)) {
+        _ if peak > 0.0 => *value / peak,
+        hue => hue.unwrap_or(Rgb::ONE),
+    };
     let before = hue;
     color_row(ui, "Colour", &mut hue);
+    ui.data_mut(|data| data.insert_temp(remembered, hue));
     if hue != before || factor as f32 != peak {
         *value = hue * factor as f32;
     }

@@ -16,41 +16,41 @@ pub(super) fn light_ui(ui: &mut Ui, document: &Document, index: usize, light: &L
         if let Some(kind) = kind_row(ui, "Type", kinds::emitter_kind(&light.emitter), &kinds) {
             edited.emitter = kinds::emitter_like(&light.emitter, kind);
         }
-        emitter_ui(ui, &mut edited.emitter, length_speed(&document.scene().camera));
+        emitter_ui(ui, &mut edited.emitter, &light.name, length_speed(&document.scene().camera));
     });
     if edited != *light {
         commands.push(AppCommand::Edit(Edit::Light(index, edited)));
     }
 }
 
-fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, speed: f64) {
+fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, name: &str, speed: f64) {
     let (length, component) = (Number::any(speed), Number::any(0.01));
     match emitter {
         Emitter::Point { position, intensity } => {
             vector_row(ui, "Position", position, &length);
-            strength_row(ui, "Intensity", intensity, "W/sr");
+            strength_row(ui, "Intensity", intensity, "W/sr", name);
         }
         Emitter::Sphere { center, radius, radiance } => {
             vector_row(ui, "Centre", center, &length);
             number_row(ui, "Radius", radius, &Number::length(speed));
-            strength_row(ui, "Radiance", radiance, "W/sr/m²");
+            strength_row(ui, "Radiance", radiance, "W/sr/m²", name);
         }
         Emitter::Quad { corner, edge_u, edge_v, radiance } => {
             vector_row(ui, "Corner", corner, &length);
             vector_row(ui, "Edge u", edge_u, &length);
             vector_row(ui, "Edge v", edge_v, &length);
-            strength_row(ui, "Radiance", radiance, "W/sr/m²");
+            strength_row(ui, "Radiance", radiance, "W/sr/m²", name);
         }
         Emitter::Sun { direction, irradiance, diameter } => {
             vector_row(ui, "Direction", direction, &component);
-            strength_row(ui, "Irradiance", irradiance, "W/m²");
+            strength_row(ui, "Irradiance", irradiance, "W/m²", name);
             number_row(ui, "Diameter", diameter, &Number::any(0.01).within(0.0..=Emitter::MOST_DIAMETER).unit("°"));
         }
         Emitter::Beam { center, direction, radius, power } => {
             vector_row(ui, "Centre", center, &length);
             vector_row(ui, "Direction", direction, &component);
             number_row(ui, "Radius", radius, &Number::length(speed));
-            strength_row(ui, "Power", power, "W");
+            strength_row(ui, "Power", power, "W", name);
         }
     }
 }

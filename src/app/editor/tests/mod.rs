@@ -4,18 +4,23 @@
 //! |---|---|
 //! | `canvas` | selecting and dragging handles; zoom and pan |
 //! | `frames` | frames, the texture, progress, failures |
-//! | `files` | opening, saving, leaving scenes; dropped files |
+//! | `files` | opening, saving, leaving scenes |
+//! | `drops` | dropped files |
 //! | `exports` | exporting pictures and surfaces |
 //! | `keys` | shortcuts, the help |
-//! | `panels` | fields, the outline, adding and deleting |
+//! | `panels` | the outline, adding and deleting, notices |
+//! | `fields` | typed numbers and names |
 
 mod canvas;
+mod drops;
 mod exports;
+mod fields;
 mod files;
 mod frames;
 mod keys;
 mod panels;
 
+use crate::app::document::{Item, Selection};
 use crate::app::editor::Editor;
 use crate::app::files::{Chooser, Request};
 use crate::app::shell::Dialog;
@@ -23,7 +28,7 @@ use crate::app::{keyboard, theme};
 use crate::engine::{Command, Counters, Energy, Frame, PassSeconds, PlanItem, PlanNote, PlanSummary, Stats, Status};
 use crate::film::LinearImage;
 use crate::math::Rgb;
-use crate::scene::{Scene, SceneFile};
+use crate::scene::{Scene, SceneFile, Shape};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -162,4 +167,21 @@ fn path_field(ui: &mut Ui, key: Key) {
     press(ui, key);
     wait_until(ui, "the path field", |ui| matches!(ui.state().dialog, Some(Dialog::Path(..))));
     ui.run_steps(2);
+}
+
+/// Selects an item.
+fn select(ui: &mut Ui, item: Item) {
+    ui.state_mut().document.selection = Selection::of(item);
+    ui.run_steps(2);
+}
+
+/// The index of the first object of this kind.
+fn first_object(ui: &Ui, kind: impl Fn(&Shape) -> bool) -> usize {
+    scene(ui).objects.iter().position(|object| kind(&object.shape)).unwrap()
+}
+
+/// Changes the scene, so that it has unsaved changes.
+fn edit(ui: &mut Ui) {
+    type_number(ui, "Corner x", "-0.9");
+    assert!(ui.state().document.is_dirty(), "the scene has unsaved changes");
 }
