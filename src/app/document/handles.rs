@@ -185,7 +185,8 @@ fn set_point(bezier: &mut Bezier, point: PointIndex, change: impl FnOnce(&mut DV
     }
 }
 
-fn translate_shape(shape: &mut Shape, by: DVec3) {
+/// Moves a shape by a vector in world space.
+pub(super) fn translate_shape(shape: &mut Shape, by: DVec3) {
     match shape {
         Shape::Quad { corner: position, .. }
         | Shape::Sphere { center: position, .. }
@@ -194,7 +195,8 @@ fn translate_shape(shape: &mut Shape, by: DVec3) {
     }
 }
 
-fn translate_emitter(emitter: &mut Emitter, by: DVec3) {
+/// Moves a light by a vector in world space; turns a sun.
+pub(super) fn translate_emitter(emitter: &mut Emitter, by: DVec3) {
     match emitter {
         Emitter::Point { position, .. }
         | Emitter::Sphere { center: position, .. }

@@ -5,6 +5,7 @@
 //! | `selection` | the selected item and control points |
 //! | `names` | names that are unique among the items of a kind |
 //! | `handles` | the draggable points of a scene: which exist, where they lie, how they move |
+//! | `placement` | where new items go |
 //! | `edit` | [`Edit`]: every change of a scene, as data |
 //! | `history` | undo and redo of whole states |
 //! | `kinds` | the kinds of shapes, lights, materials and textures: names, and conversions |
@@ -18,6 +19,7 @@ mod history;
 pub(crate) mod kinds;
 mod names;
 pub(crate) mod new_items;
+mod placement;
 mod selection;
 mod stamp;
 mod state;

@@ -1,8 +1,10 @@
 //! New objects, lights, materials and textures, for "Add", "Duplicate" and "New scene".
 
 use super::edit::Edit;
+use super::handles::{Handle, translate_emitter, translate_shape};
 use super::kinds::{MODEL_KINDS, emitter_like, model_like};
 use super::names::free_name;
+use super::placement::{fitted, free_place, size, way_to_copy};
 use super::selection::Item;
 use crate::geometry::bezier::ControlNet;
 use crate::math::Rgb;
@@ -24,11 +26,11 @@ type Make<T> = fn(&Scene) -> T;
 /// The shapes of the menu "Add to Objects", by their labels.
 pub(crate) fn shapes() -> [(&'static str, Make<Shape>); 4] {
     [
-        ("patch", |scene| Shape::Bezier(sheet(scene.camera.target, size(scene)))),
-        ("sphere", |scene| Shape::Sphere { center: scene.camera.target, radius: 0.5 * size(scene) }),
+        ("patch", |scene| Shape::Bezier(sheet(place(scene), size(scene)))),
+        ("sphere", |scene| Shape::Sphere { center: place(scene), radius: 0.5 * size(scene) }),
         ("quad", |scene| {
             let size = size(scene);
-            let corner = scene.camera.target - DVec3::new(size, 0.0, -size);
+            let corner = place(scene) - DVec3::new(size, 0.0, -size);
             Shape::Quad { corner, edge_u: 2.0 * size * DVec3::X, edge_v: -2.0 * size * DVec3::Z }
         }),
         ("plane", |scene| Shape::Plane { point: scene.camera.target, normal: DVec3::Y, u_axis: None }),
@@ -79,14 +81,15 @@ pub(crate) fn texture(scene: &Scene, path: &Path) -> Result<Texture, String> {
     Ok(Texture { name, file, encoding: Encoding::Srgb })
 }
 
-/// A new object of the patches in a `.bpt` file, under a free name made from the file's name.
+/// A new object of the patches in a `.bpt` file, under a free name made from the file's name. Patches out of sight are
+/// scaled and moved into the picture.
 ///
 /// # Errors
 /// Returns a message when the file cannot be read or parsed.
 pub(crate) fn surface(scene: &Scene, path: &Path) -> Result<Object, String> {
     let file = absolute(path);
     let patches = Arc::new(Location::Unsaved.read_patches(&file)?);
-    let bezier = Bezier { transform: Transform::default(), patches, file: Some(file) };
+    let bezier = Bezier { transform: fitted(scene, &patches), patches, file: Some(file) };
     Ok(object(scene, &stem(path, "patches"), Shape::Bezier(bezier)))
 }
 
@@ -100,16 +103,20 @@ fn absolute(path: &Path) -> String {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).display().to_string()
 }
 
-/// The edit that adds a copy of an item under a free name; `None` for textures, the camera and the settings.
+/// The edit that adds a copy of an item under a free name, beside the item; `None` for textures, the camera and the settings.
 pub(crate) fn duplicate(scene: &Scene, item: Item) -> Option<Edit> {
     Some(match item {
         Item::Object(index) => {
-            let original = scene.objects.get(index)?;
-            Edit::AddObject(Object { name: object_name(scene, &original.name), ..original.clone() })
+            let mut copy = scene.objects.get(index)?.clone();
+            copy.name = object_name(scene, &copy.name);
+            translate_shape(&mut copy.shape, way_to_copy_of(scene, Handle::Object(index)));
+            Edit::AddObject(copy)
         }
         Item::Light(index) => {
-            let original = scene.lights.get(index)?;
-            Edit::AddLight(Light { name: light_name(scene, &original.name), ..original.clone() })
+            let mut copy = scene.lights.get(index)?.clone();
+            copy.name = light_name(scene, &copy.name);
+            translate_emitter(&mut copy.emitter, way_to_copy_of(scene, Handle::Light(index)));
+            Edit::AddLight(copy)
         }
         Item::Material(index) => {
             let original = scene.materials.get(index)?;
@@ -117,6 +124,24 @@ pub(crate) fn duplicate(scene: &Scene, item: Item) -> Option<Edit> {
         }
         Item::Camera | Item::Settings | Item::Texture(_) => return None,
     })
+}
+
+/// The way from an item to its copy. The copy of a plane must leave the plane, so it goes along the normal.
+fn way_to_copy_of(scene: &Scene, original: Handle) -> DVec3 {
+    let Some(from) = original.position(scene) else { return DVec3::ZERO };
+    let way = way_to_copy(scene, from);
+    match original {
+        Handle::Object(index) => match &scene.objects[index].shape {
+            Shape::Plane { normal, .. } => way.length() * normal.normalize_or_zero(),
+            _ => way,
+        },
+        Handle::Light(_) | Handle::Point { .. } => way,
+    }
+}
+
+/// Where a new object goes: where the camera looks, beside the objects that are there.
+fn place(scene: &Scene) -> DVec3 {
+    free_place(scene, scene.camera.target)
 }
 
 /// The scene of "New scene": a curved patch over a ground plane, lit by a point light.
@@ -147,14 +172,8 @@ fn emitter(scene: &Scene, kind: &str) -> Emitter {
     if kind == "sun" {
         return emitter_like(&Emitter::Point { position: NEW_SUN, intensity: Rgb::ONE }, kind);
     }
-    let position = scene.camera.target + size(scene) * DVec3::Y;
+    let position = free_place(scene, scene.camera.target + size(scene) * DVec3::Y);
     emitter_like(&Emitter::Point { position, intensity: Rgb::ONE }, kind)
-}
-
-/// A length for new items, scene units: a fifth of the picture's height at the camera's target.
-fn size(scene: &Scene) -> f64 {
-    let camera = &scene.camera;
-    0.4 * camera.position.distance(camera.target) * (0.5 * camera.fov_y.to_radians()).tan()
 }
 
 fn object_name(scene: &Scene, wanted: &str) -> String {
@@ -167,4 +186,36 @@ fn light_name(scene: &Scene, wanted: &str) -> String {
 
 fn material_name(scene: &Scene, wanted: &str) -> String {
     free_name(scene, Item::Material(scene.materials.len()), wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::SceneFile;
+
+    #[test]
+    fn added_and_copied_items_lie_beside_the_others() {
+        let mut scene = SceneFile::built_in("report").unwrap().scene;
+        let mut places: Vec<DVec3> = Vec::new();
+        for _ in 0..3 {
+            for (label, shape) in shapes().into_iter().filter(|(label, _)| *label != "plane") {
+                let new = object(&scene, label, shape(&scene));
+                Edit::AddObject(new).apply(&mut scene);
+                let copied = duplicate(&scene, Item::Object(scene.objects.len() - 1));
+                copied.into_iter().for_each(|edit| edit.apply(&mut scene));
+                places.extend([2, 1].map(|k| Handle::Object(scene.objects.len() - k).position(&scene).unwrap()));
+            }
+        }
+        let near = |a: &DVec3| places.iter().filter(|b| a.distance(**b) < 0.2 * size(&scene)).count();
+        // Nine places around the target fill up; the first objects have a place of their own.
+        assert!(places[..6].iter().all(|place| near(place) == 1), "{places:?}");
+    }
+
+    #[test]
+    fn a_copied_plane_is_another_plane() {
+        let scene = empty_scene();
+        let Some(Edit::AddObject(copy)) = duplicate(&scene, Item::Object(0)) else { panic!("a copy of the ground") };
+        let Shape::Plane { point, normal, .. } = copy.shape else { panic!("a plane") };
+        assert!((point.dot(normal) + 0.6).abs() > 0.01, "{point} lies off the ground at y = -0.6");
+    }
 }
