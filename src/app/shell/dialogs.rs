@@ -121,7 +121,7 @@ fn surface_ui(ui: &mut Ui, name: &str, steps: &mut usize, commands: &mut Vec<App
 fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     const MOUSE: [(&str, &str); 8] = [
         ("Drag a handle", "moves the handle in the plane that faces the camera"),
-        ("Drag with X, Y or Z held", "moves the handle along this axis"),
+        ("Drag with X, Y or Z held", "moves the handle along this axis of the world"),
         ("Esc during a drag", "reverts the drag"),
         ("Click, Shift+click", "selects a control point, adds it to the selection"),
         ("Click in the picture", "selects the nearest object"),
