@@ -5,7 +5,7 @@ use super::stage::{ScreenHandle, Stage};
 use crate::app::document::Handle;
 use crate::app::theme::{self, overlay};
 use crate::scene::Bezier;
-use egui::{Color32, Painter, Pos2, Rect, Response, Stroke, StrokeKind, Vec2, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, vec2};
 
 /// Radius of a handle at every zoom, screen points.
 const RADIUS: f32 = 4.0;
@@ -40,9 +40,8 @@ fn paint_segment(painter: &Painter, ends: Option<(Pos2, Pos2)>, shown: bool) {
     }
 }
 
-/// Paints a dot for a control point, a square for an object, a sun for a light.
-pub(crate) fn paint_handle(painter: &Painter, stage: &Stage<'_>, drawn: &ScreenHandle, response: &Response) {
-    let hot = response.hovered() || response.dragged();
+/// Paints a dot for a control point, a square for an object, a sun for a light; `hot` under the pointer.
+pub(crate) fn paint_handle(painter: &Painter, stage: &Stage<'_>, drawn: &ScreenHandle, hot: bool) {
     let radius = if hot { RADIUS_HOVERED } else { RADIUS };
     let fill = match drawn.handle {
         _ if hot => overlay::HOVERED,

@@ -10,6 +10,9 @@ use std::collections::BTreeSet;
 /// Side of the square around a handle that takes the pointer, screen points.
 const GRAB_SIZE: f32 = 16.0;
 
+/// Distance from a handle at which a press outside of every square still means the handle, screen points.
+const REACH: f32 = 14.0;
+
 /// The document with its transforms to the screen, for one frame of the canvas.
 pub(crate) struct Stage<'a> {
     pub(crate) document: &'a Document,
@@ -31,6 +34,17 @@ impl ScreenHandle {
     pub(crate) fn grab_rect(&self) -> Rect {
         Rect::from_center_size(self.screen, Vec2::splat(GRAB_SIZE))
     }
+}
+
+/// The handle that a press at `at` grabs: the topmost of the handles whose square contains `at`, or else the nearest within
+/// reach; `None` away from all handles.
+pub(crate) fn grabbed(drawn: &[ScreenHandle], at: Pos2) -> Option<Handle> {
+    let distance = |handle: &&ScreenHandle| handle.screen.distance(at);
+    // The last handle is on top.
+    let exact = drawn.iter().rev().find(|handle| handle.grab_rect().contains(at));
+    let near =
+        || drawn.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).filter(|near| distance(near) <= REACH);
+    exact.or_else(near).map(|handle| handle.handle)
 }
 
 impl Stage<'_> {

@@ -4,7 +4,7 @@ use super::drag::{Constraint, Drag};
 use super::overlay;
 use super::picking;
 use super::projection::Projection;
-use super::stage::{ScreenHandle, Stage};
+use super::stage::{self, ScreenHandle, Stage};
 use super::view::{ScreenTransform, View};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, Handle, Item, Selection};
@@ -68,9 +68,10 @@ impl Canvas {
         self.pixel = pointer.and_then(|pointer| transform.pixel(pointer));
         if let Some(projection) = Projection::new(&scene.camera, &scene.film) {
             let stage = Stage { document, transform, projection };
-            pick(&stage, &response, commands);
+            let drawn = if self.show_handles { stage.handles() } else { Vec::new() };
+            pick(ui, &stage, &drawn, &response, commands);
             if self.show_handles {
-                self.handles_ui(ui, &stage, &response, commands);
+                self.handles_ui(ui, &stage, &drawn, &response, commands);
             }
         }
         self.navigate(ui, &response, &transform);
@@ -108,27 +109,35 @@ impl Canvas {
         }
     }
 
-    fn handles_ui(&mut self, ui: &mut Ui, stage: &Stage<'_>, canvas: &Response, commands: &mut Vec<AppCommand>) {
+    fn handles_ui(
+        &mut self,
+        ui: &mut Ui,
+        stage: &Stage<'_>,
+        drawn: &[ScreenHandle],
+        canvas: &Response,
+        commands: &mut Vec<AppCommand>,
+    ) {
         // Checked before the handles, because egui ends their drags on Escape.
         if self.drag.is_some() && ui.input(|input| input.key_pressed(Key::Escape)) {
             self.drag = None;
             commands.push(AppCommand::CancelDrag);
         }
-        let drawn = stage.handles();
+        let near = canvas.hover_pos().and_then(|at| stage::grabbed(drawn, at));
         let painter = ui.painter_at(stage.transform.canvas);
         if let Some(bezier) = stage.document.selection.bezier(stage.document.scene()) {
             overlay::paint_net(&painter, stage, bezier);
         }
-        self.drag_from_canvas(ui, stage, &drawn, canvas, commands);
-        for screen_handle in &drawn {
+        self.drag_from_canvas(ui, stage, drawn, canvas, commands);
+        for screen_handle in drawn {
             let response = handle_ui(ui, stage, screen_handle);
             self.respond(ui, stage, screen_handle.handle, &response, commands);
-            overlay::paint_handle(&painter, stage, screen_handle, &response);
+            let hot = response.hovered() || response.dragged() || near == Some(screen_handle.handle);
+            overlay::paint_handle(&painter, stage, screen_handle, hot);
         }
     }
 
-    /// Drags a handle that the pointer left before the first frame of the drag. In a slow frame the pointer moves that far,
-    /// and egui then gives the drag to the canvas under the pointer.
+    /// Drags a handle beside the pointer, or a handle that the pointer left before the first frame of the drag: in a slow frame
+    /// the pointer moves that far, and egui then gives the drag to the canvas under the pointer.
     fn drag_from_canvas(
         &mut self,
         ui: &Ui,
@@ -139,10 +148,8 @@ impl Canvas {
     ) {
         if canvas.drag_started_by(PointerButton::Primary) {
             let pressed = ui.input(|input| input.pointer.press_origin());
-            // The last handle is on top.
-            let grabbed = pressed.and_then(|at| drawn.iter().rev().find(|handle| handle.grab_rect().contains(at)));
-            if let Some(grabbed) = grabbed {
-                self.begin_drag(ui, stage, grabbed.handle, commands);
+            if let Some(handle) = pressed.and_then(|at| stage::grabbed(drawn, at)) {
+                self.begin_drag(ui, stage, handle, commands);
             }
         }
         if let Some(drag) = self.drag.filter(|_| canvas.dragged()) {
@@ -224,9 +231,14 @@ fn handle_ui(ui: &mut Ui, stage: &Stage<'_>, drawn: &ScreenHandle) -> Response {
     if response.dragged() { response } else { response.on_hover_text(label) }
 }
 
-/// Selects the nearest object under a click that meets no handle.
-fn pick(stage: &Stage<'_>, response: &Response, commands: &mut Vec<AppCommand>) {
+/// Selects the handle beside a click on the picture, or else the nearest object under it.
+fn pick(ui: &Ui, stage: &Stage<'_>, drawn: &[ScreenHandle], response: &Response, commands: &mut Vec<AppCommand>) {
     let Some(pointer) = response.interact_pointer_pos().filter(|_| response.clicked()) else { return };
+    if let Some(handle) = stage::grabbed(drawn, pointer) {
+        let shift = ui.input(|input| input.modifiers.shift);
+        commands.push(AppCommand::Select(stage.clicked(handle, shift)));
+        return;
+    }
     let ray = stage.projection.ray(stage.transform.to_film(pointer));
     if let Some(object) = picking::nearest_object(stage.document.scene(), &ray) {
         let item = Item::Object(object);

@@ -76,6 +76,27 @@ fn a_drag_that_leaves_the_handle_within_one_frame_still_drags_it() {
 }
 
 #[test]
+fn a_press_beside_a_handle_takes_the_handle() {
+    let mut ui = open("report");
+    let (start, at) = (world(&ui), ui.get_by_label(POINT).rect().center());
+    let view = ui.state().canvas.view;
+    // Beyond the square that takes the pointer.
+    let beside = at + vec2(11.0, -2.0);
+    drag(&mut ui, beside, vec2(30.0, 0.0), 3);
+    ui.drop_at(beside + vec2(30.0, 0.0));
+    ui.run_steps(2);
+    assert_eq!(ui.state().canvas.view, view, "the picture stays");
+    assert_ne!(world(&ui), start, "the handle moves");
+    ui.state_mut().document.undo();
+    ui.state_mut().document.selection.points.clear();
+    ui.run_steps(2);
+    drag(&mut ui, beside, vec2(0.0, 0.0), 1);
+    ui.drop_at(beside);
+    ui.run_steps(2);
+    assert_eq!(ui.state().document.selection.points.len(), 1, "a click selects it");
+}
+
+#[test]
 fn escape_reverts_a_drag() {
     let mut ui = open("report");
     let before = scene(&ui).clone();
