@@ -10,6 +10,13 @@ use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 /// Height of the outline, screen points: it fits every section of a scene with ten objects.
 const OUTLINE_HEIGHT: f32 = 390.0;
 
+/// Width of the progress panel, screen points.
+const PROGRESS_WIDTH: f32 = 240.0;
+/// Least width of the scene panel, screen points: it fits the rows of vectors.
+const SCENE_WIDTH: f32 = 372.0;
+/// Least width of the picture, screen points: in a narrower window the progress panel gives way.
+const PICTURE_WIDTH: f32 = 240.0;
+
 impl Editor {
     /// Takes the results of background threads. Needs no visible window.
     pub(crate) fn poll(&mut self, ctx: &Context) {
@@ -61,14 +68,18 @@ impl Editor {
     }
 
     fn panels_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-        Panel::left("progress").default_size(240.0).min_size(200.0).show(ui, |ui| {
-            contained(ui, |ui| {
-                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    progress_ui(ui, &self.document, &self.rendering, commands);
+        let widest = ui.available_width() - SCENE_WIDTH - PICTURE_WIDTH;
+        if widest >= PROGRESS_WIDTH {
+            Panel::left("progress").default_size(PROGRESS_WIDTH).size_range(200.0..=widest).show(ui, |ui| {
+                contained(ui, |ui| {
+                    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                        progress_ui(ui, &self.document, &self.rendering, commands);
+                    });
                 });
             });
-        });
-        Panel::right("scene").default_size(372.0).min_size(370.0).show(ui, |ui| {
+        }
+        let widest = (ui.available_width() - PICTURE_WIDTH).max(SCENE_WIDTH);
+        Panel::right("scene").default_size(SCENE_WIDTH).size_range(SCENE_WIDTH..=widest).show(ui, |ui| {
             contained(ui, |ui| self.scene_ui(ui, commands));
         });
     }

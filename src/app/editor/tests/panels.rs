@@ -226,3 +226,15 @@ fn a_scene_without_light_says_so() {
     ui.run_steps(2);
     assert!(scene(&ui).lights.is_empty() && ui.query_by_label_contains("no light").is_some(), "no lamp");
 }
+
+#[test]
+fn the_picture_has_room_in_the_smallest_window() {
+    let mut ui = open("report");
+    for size in [[640.0, 400.0], [860.0, 600.0], [1280.0, 900.0]] {
+        ui.set_size(size.into());
+        ui.run_steps(4);
+        let width = ui.state().canvas.transform.unwrap().canvas.width();
+        assert!(width > 230.0, "{width} in a window of {size:?}");
+    }
+    assert!(ui.query_by_label("Display").is_some(), "a wide window has the progress panel");
+}
