@@ -65,3 +65,17 @@ fn a_dropped_file_that_cannot_be_opened_asks_no_question() {
     drop_file(&mut ui, broken);
     assert!(matches!(ui.state().dialog, Some(Dialog::Error(..))), "{:?}", ui.state().dialog);
 }
+
+#[test]
+fn a_file_dragged_over_the_window_dims_the_window() {
+    let mut ui = open("cornell");
+    let layers = |ui: &Ui| ui.output().shapes.len();
+    let before = layers(&ui);
+    let hovered = egui::HoveredFile { path: Some("pot.bpt".into()), ..Default::default() };
+    ui.input_mut().hovered_files = vec![hovered];
+    ui.run_steps(2);
+    assert!(layers(&ui) >= before + 3, "a veil, a frame and a sentence");
+    ui.input_mut().hovered_files.clear();
+    ui.run_steps(2);
+    assert_eq!(layers(&ui), before, "gone");
+}
