@@ -86,7 +86,9 @@ impl Editor {
 
     fn scene_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         let outline = OUTLINE_HEIGHT.min(0.5 * ui.available_height());
-        Panel::top("outline").resizable(true).default_size(outline).min_size(80.0).show(ui, |ui| {
+        // The properties stay visible in a low window.
+        let highest = (0.6 * ui.available_height()).max(80.0);
+        Panel::top("outline").resizable(true).default_size(outline).size_range(80.0..=highest).show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
         });
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

@@ -235,6 +235,8 @@ fn the_picture_has_room_in_the_smallest_window() {
         ui.run_steps(4);
         let width = ui.state().canvas.transform.unwrap().canvas.width();
         assert!(width > 230.0, "{width} in a window of {size:?}");
+        let properties = ui.get_by_label("Object: bezier").rect();
+        assert!(properties.max.y < size[1] - 60.0, "{properties} in a window of {size:?}");
     }
     assert!(ui.query_by_label("Display").is_some(), "a wide window has the progress panel");
 }
