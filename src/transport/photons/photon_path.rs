@@ -20,8 +20,8 @@ pub(super) struct PhotonPath {
     pub(super) was_scattered: bool,
     /// Whether the last event was at a mirror or glass.
     pub(super) last_was_specular: bool,
-    /// For a path that the first surface scattered and none since but mirrors and glass: the density that [`GlossyMis::camera_weight`](crate::transport::points::GlossyMis::camera_weight)
-    /// takes.
+    /// For a path that the first surface scattered and none since but mirrors and glass: the density that
+    /// [`camera_weight`](crate::transport::points::GlossyMis::camera_weight) takes.
     pub(super) mis_density: Option<f64>,
 }
 
