@@ -37,6 +37,7 @@ struct PassSeconds {
 struct EnergyBalances {
     caustics: EnergyBalance,
     interreflection: EnergyBalance,
+    worst_balance: f64,
 }
 
 #[derive(Serialize)]
@@ -90,6 +91,7 @@ impl<'a> Statistics<'a> {
             energy: EnergyBalances {
                 caustics: stats.energy.caustics.into(),
                 interreflection: stats.energy.interreflection.into(),
+                worst_balance: stats.energy.worst_balance,
             },
             plan: frame.plan.notes.iter().map(note).collect(),
         }

@@ -14,6 +14,17 @@ pub struct Energy {
     pub caustics: PathEnergy,
     /// Paths of the photon pass of interreflection.
     pub interreflection: PathEnergy,
+    /// The greatest absolute value of the balances of any single iteration.
+    pub worst_balance: f64,
+}
+
+impl Energy {
+    /// The energy of one iteration.
+    pub(crate) fn of_iteration(caustics: PathEnergy, interreflection: PathEnergy) -> Self {
+        let balances = [caustics, interreflection].map(|energy| [energy.path_balance(), energy.photon_balance()]);
+        let worst_balance = balances.as_flattened().iter().fold(0.0, |worst: f64, balance| worst.max(balance.abs()));
+        Self { caustics, interreflection, worst_balance }
+    }
 }
 
 /// What becomes of the flux of the photon paths of a component: sums over the paths and over the three channels, W. Each entry is computed
@@ -146,6 +157,7 @@ impl AddAssign for PathEnergy {
 
 impl AddAssign for Energy {
     fn add_assign(&mut self, other: Self) {
+        self.worst_balance = self.worst_balance.max(other.worst_balance);
         self.caustics += other.caustics;
         self.interreflection += other.interreflection;
     }

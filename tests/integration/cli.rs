@@ -106,6 +106,7 @@ fn renders_png_exr_and_statistics() {
             assert!(balance.is_some_and(|lost| lost.abs() < 1e-6), "{component}: {stats}");
         }
     }
+    assert!(stats["energy"]["worst_balance"].as_f64().is_some_and(|lost| lost < 1e-6), "{stats}");
     assert!(stats["plan"].as_array().is_some_and(|plan| !plan.is_empty()), "{stats}");
 }
 

@@ -52,6 +52,7 @@ tests! {
     sampling: "sampling",
     sweeps: "sweeps",
     furnaces: "furnaces",
+    energy: "energy",
     bodies: "bodies",
     far_away: "far away",
     determinism: "determinism",

@@ -9,7 +9,8 @@
 //! | `long_runs` | late iterations, sums over many iterations, merged films (A1 to A3) |
 //! | `sampling` | samplers against densities, thin cones (S1) |
 //! | `sweeps` | scales of 1e-6 to 1e6, offsets up to 1e6 |
-//! | `furnaces` | lossless bodies before a uniform background; energy (E1 to E5) |
+//! | `furnaces` | lossless bodies before a uniform background; reflectance and sums (E1, E3, E5) |
+//! | `energy` | the energy balance of photon paths (E2, E4) |
 //! | `bodies` | bodies of glass and area lights against the oracle |
 //! | `far_away` | far lamps and far objects |
 //! | `determinism` | threads, repeats, odd sizes of the film |
@@ -19,6 +20,7 @@
 mod bodies;
 mod closed_forms;
 mod determinism;
+mod energy;
 mod far_away;
 mod field;
 mod files;
@@ -36,7 +38,7 @@ use crate::suite::Case;
 pub(crate) type Group = (&'static str, fn() -> Vec<Case>);
 
 /// All groups, in the order of the table.
-pub(crate) const GROUPS: [Group; 13] = [
+pub(crate) const GROUPS: [Group; 14] = [
     ("closed forms", closed_forms::cases),
     ("geometry", geometry::cases),
     ("optics", optics::cases),
@@ -45,6 +47,7 @@ pub(crate) const GROUPS: [Group; 13] = [
     ("sampling", sampling::cases),
     ("sweeps", sweeps::cases),
     ("furnaces", furnaces::cases),
+    ("energy", energy::cases),
     ("bodies", bodies::cases),
     ("far away", far_away::cases),
     ("determinism", determinism::cases),
