@@ -6,6 +6,7 @@ use super::texture::{self, TextureKey};
 use super::{Camera, Contacts, Image, Light, Material, ParallelRays, Precision, PrepareError, Surface, View, World};
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
+use crate::math::float::rounding;
 use crate::math::{Aabb, Rgb};
 use crate::scene::{self, Emitter, Location, MaterialModel, Scene, Shape, TextureUse};
 use glam::DVec3;
@@ -64,7 +65,10 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
 
 /// How well the points of each light are known: those of its surface, or of the light itself if it has none.
 fn light_precisions(lights: &[Light], surfaces: &[Surface], precisions: &[Precision]) -> Vec<Precision> {
-    let without_surface = |light: &Light| Precision { magnitude: light.center().abs(), contact: 0.0 };
+    let without_surface = |light: &Light| {
+        let magnitude = light.center().abs();
+        Precision { magnitude, contact: rounding(magnitude, DVec3::ONE) }
+    };
     let mut found: Vec<Precision> = lights.iter().map(without_surface).collect();
     for (surface, precision) in surfaces.iter().zip(precisions) {
         if let Surface::Light(light) = *surface {

@@ -181,12 +181,17 @@ impl World {
     /// crosses a nearer surface either as a photon and as direct light, or as neither. 0 for suns and beams.
     #[inline]
     pub fn clearance_of_light(&self, light: usize, point: DVec3, direction: DVec3) -> f64 {
-        let precision = &self.light_precisions[light];
-        match (self.lights[light].normal(point), &self.lights[light]) {
-            (Some(normal), _) => precision.rounding(point, normal) / direction.dot(normal).abs(),
-            (None, Light::Parallel(_)) => 0.0,
-            (None, _) => precision.rounding(point, direction),
+        match &self.lights[light] {
+            Light::Parallel(_) => 0.0,
+            Light::Point { .. } => self.light_precisions[light].contact,
+            area @ (Light::Sphere { .. } | Light::Quad { .. }) => self.clearance_of_area(light, area, point, direction),
         }
+    }
+
+    #[inline(never)]
+    fn clearance_of_area(&self, index: usize, light: &Light, point: DVec3, direction: DVec3) -> f64 {
+        let normal = light.normal(point).unwrap_or(direction);
+        self.light_precisions[index].rounding(point, normal) / direction.dot(normal).abs()
     }
 
     /// How far rounding may move a primitive, and the surfaces that touch it, at a point along the point's normal, scene units.
