@@ -6,7 +6,7 @@ use glam::DVec3;
 pub struct Precision {
     /// The [magnitude](crate::geometry::Primitive::magnitude), scene units.
     pub(super) magnitude: DVec3,
-    /// Distance at which surfaces that touch it are one with it, scene units; 0 without contact.
+    /// Least rounding in any direction, scene units: surfaces that touch it are one with it at this distance; 0 without contact.
     pub(super) contact: f64,
 }
 

@@ -67,6 +67,7 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
 fn light_precisions(lights: &[Light], surfaces: &[Surface], precisions: &[Precision]) -> Vec<Precision> {
     let without_surface = |light: &Light| {
         let magnitude = light.center().abs();
+        // A point has no normal: rounding may move it in any direction.
         Precision { magnitude, contact: rounding(magnitude, DVec3::ONE) }
     };
     let mut found: Vec<Precision> = lights.iter().map(without_surface).collect();

@@ -70,23 +70,25 @@ fn irradiance_of_area_lights() {
     assert_near(mean(&render(&quad, 64)), 2.0 * form_factor, 5e-3, "a rectangle's corner");
 }
 
+/// A narrow view of the ground under the middle of a square lamp of radiance 1, 2 above it, with this half side.
+fn under_a_square_lamp(half: f64) -> String {
+    let (corner, side) = ([-half, 2.0, -half], 2.0 * half);
+    format!(
+        "{}[render]\nmax_bounces = 1
+        [[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
+        [[object]]\nname = \"p\"\ntype = \"plane\"\npoint = [0,0,0]\nnormal = [0,1,0]\nmaterial = \"m\"
+        [[light]]\nname = \"l\"\ntype = \"quad\"\ncorner = {corner:?}\nedge_u = [{side}, 0, 0]\nedge_v = [0, 0, {side}]\nradiance = [1, 1, 1]\n",
+        narrow_camera([0.4, 0.3, 0.0], [0.0; 3])
+    )
+}
+
 /// Under a square lamp, however wide, each pixel is near `albedo L F` with the form factor of the square, and the noise is as small.
 #[test]
 fn lamps_wider_than_their_distance() {
     for half in [1.0, 50.0, 1e3, 1e6] {
-        let (corner, side) = ([-half, 2.0, -half], 2.0 * half);
-        let lamp = format!(
-            "[[light]]\nname = \"l\"\ntype = \"quad\"\ncorner = {corner:?}\nedge_u = [{side}, 0, 0]\nedge_v = [0, 0, {side}]\nradiance = [1, 1, 1]\n"
-        );
-        let text = format!(
-            "{}[render]\nmax_bounces = 1
-            [[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
-            [[object]]\nname = \"p\"\ntype = \"plane\"\npoint = [0,0,0]\nnormal = [0,1,0]\nmaterial = \"m\"\n{lamp}",
-            narrow_camera([0.4, 0.3, 0.0], [0.0; 3])
-        );
         let slope = half / f64::hypot(half, 2.0);
         let expected = 0.5 * 4.0 / PI * slope * slope.atan();
-        let image = render(&text, 16);
+        let image = render(&under_a_square_lamp(half), 16);
         assert_near(mean(&image), expected, 0.01, &format!("half a side of {half}"));
         for pixel in &image.pixels {
             assert_near(f64::from(pixel.x), expected, 0.15, &format!("a pixel, half a side of {half}"));
@@ -98,21 +100,16 @@ fn lamps_wider_than_their_distance() {
 #[test]
 fn wide_lamps_do_not_shine_through_what_is_near_them() {
     for half in [1e3, 1e6, 1e8] {
-        let (corner, side) = ([-half, 2.0, -half], 2.0 * half);
-        let lamp = format!(
-            "[[light]]\nname = \"l\"\ntype = \"quad\"\ncorner = {corner:?}\nedge_u = [{side}, 0, 0]\nedge_v = [0, 0, {side}]\nradiance = [1, 1, 1]\n"
-        );
         let square = "[[material]]\nname = \"black\"\ntype = \"diffuse\"\nalbedo = [0, 0, 0]
             [[object]]\nname = \"square\"\ntype = \"quad\"\ncorner = [-4, 1.999, -4]\nedge_u = [8, 0, 0]\nedge_v = [0, 0, 8]\nmaterial = \"black\"\n";
-        let text = format!(
-            "{}[render]\nmax_bounces = 1
-            [[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
-            [[object]]\nname = \"p\"\ntype = \"plane\"\npoint = [0,0,0]\nnormal = [0,1,0]\nmaterial = \"m\"\n{lamp}{square}",
-            narrow_camera([0.4, 0.3, 0.0], [0.0; 3])
-        );
         let slope = 4.0 / f64::hypot(4.0, 1.999);
         let hidden = 4.0 / PI * slope * slope.atan();
-        assert_near(mean(&render(&text, 64)), 0.5 * (1.0 - hidden), 0.03, &format!("half a side of {half}"));
+        assert_near(
+            mean(&render(&(under_a_square_lamp(half) + square), 64)),
+            0.5 * (1.0 - hidden),
+            0.03,
+            &format!("half a side of {half}"),
+        );
     }
 }
 

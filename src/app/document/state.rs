@@ -71,7 +71,8 @@ impl Document {
         format!("{}{name}", if self.is_dirty() { "*" } else { "" })
     }
 
-    /// Changes the scene, and selects an added item, or the camera after a removal. Edits with one key within one gesture make one undo step.
+    /// Changes the scene, and selects an added item, or the camera after a removal. Edits with one key within one gesture
+    /// make one undo step.
     pub(crate) fn edit(&mut self, edit: Edit) {
         let (key, selects) = (edit.key(), edit.selects(&self.file.scene));
         let mut scene = self.file.scene.clone();

@@ -37,8 +37,8 @@ struct LightSample {
     pdf: Option<f64>,
 }
 
-/// Least distance at which lights shine, in pixel footprints: so the light of a lamp on a surface stays finite. Of the samples of a pixel
-/// with a nearer lamp, one in some thousand would find most of its light.
+/// Least distance at which point lights shine, in pixel footprints: so the light of one on a surface stays finite. Of the samples of a pixel
+/// with a nearer light, one in some thousand would find most of its light.
 const NEAREST: f64 = 0.01;
 /// Rounding of a shadow ray's end over its length: some roundings of `f64`.
 const END_ROUNDING: f64 = 1e-14;
@@ -134,8 +134,8 @@ impl DirectLight<'_> {
     }
 }
 
-/// Samples a point of a light, which shines at a point `from` as if it were at least the distance `nearest` away; `None` where it does not
-/// shine.
+/// Samples a point of a light that shines at a point `from`, a point light as if it were at least the distance `nearest` away; `None` where
+/// the light does not shine.
 fn sample_light(light: &Light, from: DVec3, nearest: f64, sampler: &mut Sampler) -> Option<LightSample> {
     match light {
         Light::Point { position, intensity } => {

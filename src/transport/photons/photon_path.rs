@@ -62,22 +62,25 @@ impl PhotonPath {
         let (diffuse, of_lobe) = (diffuse / all, of_lobe / all);
         let diffuse_power = power(fluxes[0]);
         let lobe_power = if matches!(lobe, Lobe::None) { 0.0 } else { power(fluxes[1]) };
-        let is_diffuse = number < diffuse;
-        let power = match is_diffuse {
-            true => diffuse_power / diffuse,
-            false if number - diffuse < of_lobe => lobe_power / of_lobe,
-            false => 0.0,
-        };
-        energy.reflect(arrived, diffuse_power + lobe_power, power);
-        if is_diffuse {
-            return self.reflect_diffusely(vertex, &Choice { u, number, probability: diffuse, power }, energy);
+        let reflected = diffuse_power + lobe_power;
+        if number < diffuse {
+            let choice = Choice { u, number, probability: diffuse, power: diffuse_power / diffuse };
+            energy.reflect(arrived, reflected, choice.power);
+            return self.reflect_diffusely(vertex, &choice, energy);
         }
-        let choice = Choice { u, number, probability: of_lobe, power };
+        // False also for a path without flux, whose probabilities are NaN.
+        let meets_lobe = number - diffuse < of_lobe;
+        if !meets_lobe {
+            energy.reflect(arrived, reflected, 0.0);
+            return None;
+        }
+        let choice = Choice { u, number, probability: of_lobe, power: lobe_power / of_lobe };
+        energy.reflect(arrived, reflected, choice.power);
         match lobe {
-            _ if number - diffuse >= of_lobe => None,
-            Lobe::None => None,
             Lobe::Phong { .. } => self.follow_gloss(vertex, &choice, energy),
-            Lobe::Mirror { .. } | Lobe::Glass { .. } => self.follow_specular(world, vertex, &choice, energy),
+            Lobe::None | Lobe::Mirror { .. } | Lobe::Glass { .. } => {
+                self.follow_specular(world, vertex, &choice, energy)
+            }
         }
     }
 

@@ -43,6 +43,7 @@ impl Shape<'_> {
     /// At least the tolerance of a contact of this primitive, scene units.
     pub(super) fn reach(&self) -> f64 {
         let extent = self.extent();
+        // Three coordinates, each with its own rounding.
         3.0 * TOUCHING * self.magnitude.length().max(if extent.is_finite() { extent } else { 0.0 })
     }
 
@@ -118,9 +119,11 @@ pub(super) fn contact(a: Shape, b: Shape, is_one_object: bool) -> Option<f64> {
     let least = if least.is_finite() { SELF_HIT_OFFSET * least } else { 0.0 };
     let tolerance = |magnitude: DVec3, normal| MARGIN * rounding(magnitude, normal).max(least);
     let both = a.magnitude.max(b.magnitude);
+    // Curved surfaces have normals in many directions: the rounding of all coordinates adds up.
+    let in_any_direction = tolerance(both, DVec3::ONE);
     match (a.primitive, b.primitive) {
         (Primitive::Sphere(p), Primitive::Sphere(q)) => {
-            let known = tolerance(both, DVec3::ONE);
+            let known = in_any_direction;
             is_same_sphere(p, q, known).then_some(known)
         }
         (Primitive::Sphere(_), _) | (_, Primitive::Sphere(_)) => None,
@@ -131,7 +134,7 @@ pub(super) fn contact(a: Shape, b: Shape, is_one_object: bool) -> Option<f64> {
                 p.overlaps(&q, known).then_some(known)
             }
             (None, None) => {
-                let known = tolerance(both, DVec3::ONE);
+                let known = in_any_direction;
                 (touches(a, b, known, is_one_object) || touches(b, a, known, is_one_object)).then_some(known)
             }
             _ => None,
