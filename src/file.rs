@@ -59,8 +59,7 @@ const TIME_TO_LOCK: Duration = Duration::from_secs(1);
 ///
 /// If the file cannot be written; the previous file is then unchanged.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // Replaces the target of a symbolic link, not the link.
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let target = link_target(path);
     let before = fs::metadata(&target).ok();
     if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
         return fs::write(&target, bytes);
@@ -78,6 +77,15 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     temporary.as_file().sync_all()?;
     temporary.persist(&target).map_err(|e| e.error)?;
     Ok(())
+}
+
+/// The file that a symbolic link leads to, whether it exists or not; a path that is no link leads to itself. A file that is renamed to
+/// the target keeps the link.
+fn link_target(path: &Path) -> PathBuf {
+    // As many links in a row as Linux follows.
+    const MOST_LINKS: usize = 40;
+    let next = |path: &PathBuf| fs::read_link(path).ok().map(|link| folder(path).join(link));
+    std::iter::successors(Some(path.to_owned()), next).take(MOST_LINKS).last().unwrap_or_else(|| path.to_owned())
 }
 
 /// Removes the temporary files that processes left in a folder when they were killed. A process that still writes holds the lock of its
@@ -175,6 +183,11 @@ mod tests {
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read(&path).unwrap(), b"new");
         assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o640);
+        let (dangling, missing) = (dir.path().join("dangling"), dir.path().join("missing"));
+        symlink("missing", &dangling).unwrap();
+        write_whole(&dangling, b"there").unwrap();
+        assert!(fs::symlink_metadata(&dangling).unwrap().is_symlink());
+        assert_eq!(fs::read(&missing).unwrap(), b"there");
         write_whole(Path::new("/dev/null"), b"gone").unwrap();
         assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
     }

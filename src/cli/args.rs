@@ -129,6 +129,9 @@ pub(super) struct MergeArguments {
     /// Write the merged film to this checkpoint
     #[arg(long, value_name = "FILE")]
     pub(super) checkpoint: Option<PathBuf>,
+    /// Write the statistics of all films together to this JSON file
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) stats: Option<PathBuf>,
 }
 
 /// The end of rendering: a time, a number of iterations, or an error; by default a time.

@@ -3,8 +3,9 @@ use signal_hook::{
     flag,
 };
 use std::io;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
 
 /// What a shell adds to the number of a signal for the exit code of a program that the signal ended.
 const EXIT_CODE_OF_SIGNALS: i32 = 128;
@@ -13,6 +14,8 @@ const EXIT_CODE_OF_SIGNALS: i32 = 128;
 pub(super) struct Interrupt {
     /// The number of the signal; 0 before it.
     signal: Arc<AtomicUsize>,
+    /// When the program noticed the signal.
+    noticed: OnceLock<Instant>,
 }
 
 impl Interrupt {
@@ -29,7 +32,7 @@ impl Interrupt {
             flag::register(number, is_second.clone())?;
             flag::register_usize(number, signal.clone(), number as usize)?;
         }
-        Ok(Self { signal })
+        Ok(Self { signal, noticed: OnceLock::new() })
     }
 
     /// The name of the signal and the exit code of a program that it ended; `None` before it.
@@ -41,8 +44,29 @@ impl Interrupt {
         }
     }
 
-    /// Whether a signal has come.
-    pub(super) fn has_come(&self) -> bool {
-        self.signal().is_some()
+    /// The time since the program noticed the signal; `None` before it. Calls `notice` once, at the first call after the signal.
+    pub(super) fn age(&self, notice: impl FnOnce()) -> Option<Duration> {
+        self.signal()?;
+        let noticed = self.noticed.get_or_init(|| {
+            notice();
+            Instant::now()
+        });
+        Some(noticed.elapsed())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_signal_is_noticed_once() {
+        let interrupt = Interrupt { signal: Arc::default(), noticed: OnceLock::new() };
+        let mut notices = 0;
+        assert_eq!(interrupt.age(|| notices += 1), None, "no signal yet");
+        interrupt.signal.store(SIGTERM as usize, Ordering::Relaxed);
+        let first = interrupt.age(|| notices += 1).unwrap();
+        assert!(interrupt.age(|| notices += 1).unwrap() >= first);
+        assert_eq!((notices, interrupt.signal()), (1, Some(("SIGTERM", 143))));
     }
 }

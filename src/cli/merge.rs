@@ -1,8 +1,9 @@
 use super::{
     CliError,
     args::MergeArguments,
-    output::{is_same_file, must_not_overwrite, needs_folder},
+    output::{must_be_own_files, must_not_overwrite, write},
     picture_format::PictureFormat,
+    statistics::Statistics,
 };
 use crate::engine::{Checkpoint, CheckpointFile};
 use std::{
@@ -12,17 +13,13 @@ use std::{
 
 /// `patchlight merge`: merges the checkpoints of consecutive iterations.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), CliError> {
-    let MergeArguments { films, output, checkpoint } = arguments;
+    let MergeArguments { films, output, checkpoint, stats } = arguments;
     let format = output.as_deref().map(PictureFormat::of).transpose()?;
-    [output, checkpoint].into_iter().flatten().try_for_each(|path| needs_folder(path))?;
-    for written in [output, checkpoint].into_iter().flatten() {
-        must_not_overwrite(written, films.iter().map(|film| (film.as_path(), "a film")))?;
-    }
-    if let (Some(output), Some(checkpoint)) = (output, checkpoint)
-        && is_same_file(output, checkpoint)
-    {
-        let file = output.display();
-        return Err(CliError::Usage(format!("{file}: is both the picture and the checkpoint, expected two files")));
+    let written = [(output, "picture"), (checkpoint, "checkpoint"), (stats, "statistics")];
+    let written: Vec<_> = written.into_iter().filter_map(|(path, name)| Some((path.as_deref()?, name))).collect();
+    must_be_own_files(&written)?;
+    for (path, _) in &written {
+        must_not_overwrite(path, films.iter().map(|film| (film.as_path(), "a film")))?;
     }
     let merged = merged(films)?;
     if let Some(path) = checkpoint {
@@ -30,6 +27,9 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), CliError> {
     }
     if let (Some(format), Some(path)) = (format, output) {
         format.write(path, &merged.part.film().image(), merged.run.display())?;
+    }
+    if let Some(path) = stats {
+        write(path, Statistics::new(&merged.part.stats(), merged.run.size()).json()?.as_bytes())?;
     }
     // The files are written: a message that nobody can read is no failure.
     output.as_ref().or(checkpoint.as_ref()).map(|path| report(&merged, path).ok());

@@ -16,6 +16,18 @@ pub(super) fn needs_folder(path: &Path) -> Result<(), CliError> {
     }
 }
 
+/// Fails before the rendering if one of the files that it writes, each with its name, has no folder, or is another one of them.
+pub(super) fn must_be_own_files(written: &[(&Path, &str)]) -> Result<(), CliError> {
+    for (index, (path, name)) in written.iter().enumerate() {
+        needs_folder(path)?;
+        if let Some((_, other)) = written[..index].iter().find(|(other, _)| is_same_file(path, other)) {
+            let file = path.display();
+            return Err(CliError::Usage(format!("{file}: is both the {other} and the {name}, expected two files")));
+        }
+    }
+    Ok(())
+}
+
 /// Writes a file, whole or not at all.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
     write_whole(path, bytes).map_err(|e| CliError::Failed(format!("{}: cannot be written: {e}", path.display())))
@@ -39,7 +51,7 @@ pub(super) fn must_spare_files_of(scene: &SceneFile, written: &Path) -> Result<(
 }
 
 /// Whether two paths lead to one file, which need not exist.
-pub(super) fn is_same_file(a: &Path, b: &Path) -> bool {
+fn is_same_file(a: &Path, b: &Path) -> bool {
     let resolved = |path: &Path| {
         path.canonicalize()
             .or_else(|_| folder(path).canonicalize().map(|at| at.join(path.file_name().unwrap_or_default())))

@@ -21,8 +21,11 @@ impl Progress {
         Self { bar, budget }
     }
 
-    /// Shows the progress after an iteration.
+    /// Shows the progress after an iteration, unless the bar was cleared.
     pub(super) fn show(&self, stats: &Stats) {
+        if self.bar.is_finished() {
+            return;
+        }
         let fraction = fraction_done(&self.budget, stats).clamp(0.0, 1.0);
         self.bar.set_position((STEPS as f64 * fraction) as u64);
         let error = stats.error_estimate.map_or(String::new(), |e| format!(", error about {:.1} %", 100.0 * e));
@@ -33,9 +36,12 @@ impl Progress {
             stats.seconds
         ));
     }
-}
 
-impl Progress {
+    /// Clears the bar for good.
+    pub(super) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+
     /// Writes a line to stderr, above the bar.
     pub(super) fn tell(&self, message: &str) {
         // Where stderr cannot be written, nobody reads it.
@@ -45,7 +51,7 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        self.clear();
     }
 }
 

@@ -3,11 +3,11 @@ use super::{
     args::{Budget, RenderArguments, RenderSettings},
     checkpoints::Checkpoints,
     interrupt::Interrupt,
-    output::{is_same_file, must_not_overwrite, must_spare_files_of, needs_folder, write},
+    output::{must_be_own_files, must_not_overwrite, must_spare_files_of, write},
     picture_format::PictureFormat,
     progress::Progress,
     rendering::{advance_unless, pool},
-    statistics::Statistics,
+    statistics::{Statistics, Work},
     words::counted,
 };
 use crate::{
@@ -20,7 +20,12 @@ use std::{
     fmt::Display,
     io::{self, Write, stderr},
     path::Path,
+    time::Duration,
 };
+
+/// The longest wait for the first iteration after a signal, without which there is no picture. Job schedulers kill a program half a minute
+/// after the signal.
+const WAIT_FOR_PICTURE: Duration = Duration::from_secs(5);
 
 /// `patchlight render`: renders a picture and writes it.
 pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
@@ -40,7 +45,9 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
         format.write(path, &frame.image, (film.exposure, film.tone_curve))?;
     }
     if let Some(path) = &arguments.stats {
-        let statistics = Statistics::new(&frame, cpu_seconds, pool.current_num_threads());
+        let size = (frame.image.width, frame.image.height);
+        let work = Work { cpu_seconds, threads: pool.current_num_threads() };
+        let statistics = Statistics::new(&frame.stats, size).of_rendering(work, &frame.plan);
         write(path, statistics.json()?.as_bytes())?;
     }
     saved?;
@@ -48,12 +55,12 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
     let output = arguments.output.as_deref().or(checkpoint).unwrap_or(&arguments.scene).display();
     match interrupt.signal() {
         Some((signal, code)) => {
-            let iterations = counted(frame.stats.iterations, "iteration");
             let go_on = checkpoint.map_or(String::new(), |path| format!("; go on with --resume {}", path.display()));
-            Err(CliError::Interrupted {
-                message: format!("{output}: {iterations}, ended early by {signal}{go_on}"),
-                code,
-            })
+            let ended = match frame.iteration {
+                0 => format!("no picture, {signal} came before the end of an iteration"),
+                n => format!("{}, ended early by {signal}", counted(n, "iteration")),
+            };
+            Err(CliError::Interrupted { message: format!("{output}: {ended}{go_on}"), code })
         }
         None => {
             // The picture is written: a message that nobody can read is no failure.
@@ -66,16 +73,11 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
 /// Fails before the rendering if a file that it writes has no folder, or would overwrite the scene, a checkpoint or another result.
 fn needs_own_files(arguments: &RenderArguments) -> Result<(), CliError> {
     let written: Vec<_> = files_written(arguments).collect();
-    for (index, (path, name)) in written.iter().enumerate() {
-        needs_folder(path)?;
+    must_be_own_files(&written)?;
+    written.iter().try_for_each(|(path, _)| {
         must_not_overwrite(path, [(arguments.scene.as_path(), "the scene")])?;
-        Checkpoints::must_not_overwrite(&arguments.checkpoints, path)?;
-        if let Some((_, other)) = written[..index].iter().find(|(other, _)| is_same_file(path, other)) {
-            let file = path.display();
-            return Err(CliError::Usage(format!("{file}: is both the {other} and the {name}, expected two files")));
-        }
-    }
-    Ok(())
+        Checkpoints::must_not_overwrite(&arguments.checkpoints, path)
+    })
 }
 
 /// The files that a rendering writes, with the names of what they hold.
@@ -93,7 +95,7 @@ struct Rendered {
     saved: Result<(), CheckpointError>,
 }
 
-/// The picture when the budget is spent, or after a signal. The picture has at least one iteration, unless a signal ended the iterations
+/// The picture when the budget is spent, or after a signal. The picture is black if a signal ended the first iteration, or the iterations
 /// before it, which are only measured.
 fn render_frame(
     file: &SceneFile,
@@ -105,15 +107,20 @@ fn render_frame(
     let session = Session::prepare(file, seed, None)?.only(only.map(Component::from));
     let mut session = checkpoints.begin(session)?;
     let progress = Progress::new(arguments.budget);
+    let must_stop = |has_begun: bool| {
+        // A second signal ends the program at once: nothing can be cleared then.
+        let age = interrupt.age(|| progress.clear());
+        age.is_some_and(|age| has_begun || age > WAIT_FOR_PICTURE)
+    };
     let start = ProcessTime::now();
     let mut last = 0.0;
     while !is_spent(&arguments.budget, &session, last) {
         let has_begun = session.part().rendered() > 0;
-        if has_begun && interrupt.has_come() {
+        if must_stop(has_begun) {
             break;
         }
         progress.show(&session.stats());
-        last = advance_unless(&mut session, &|| has_begun && interrupt.has_come());
+        last = advance_unless(&mut session, &|| must_stop(has_begun));
         checkpoints.save_if_due(&session, &progress);
     }
     let cpu_seconds = start.elapsed().as_secs_f64();

@@ -1,5 +1,5 @@
 use super::CliError;
-use crate::engine::{Counters, Frame, PathEnergy};
+use crate::engine::{Counters, PassSeconds, PathEnergy, PlanNote, PlanSummary, Stats};
 use serde::Serialize;
 
 /// The statistics of a rendering, as `--stats` writes them.
@@ -9,27 +9,27 @@ pub(super) struct Statistics<'a> {
     photons_emitted: u64,
     rays: u64,
     seconds: f64,
-    cpu_seconds: f64,
+    #[serde(flatten)]
+    work: Option<Work>,
     error_estimate: Option<f64>,
     missing_light: Option<String>,
     dropped_samples: u64,
     width: u32,
     height: u32,
-    threads: usize,
     pass_seconds: PassSeconds,
     counters: Counters,
     energy: EnergyBalances,
-    plan: Vec<Note<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plan: Option<Vec<Note<'a>>>,
 }
 
+/// The work of one program that rendered.
 #[derive(Serialize)]
-struct PassSeconds {
-    prepare: f64,
-    camera: f64,
-    photons: f64,
-    map: f64,
-    gather: f64,
-    commit: f64,
+pub(super) struct Work {
+    /// Time of all threads.
+    pub(super) cpu_seconds: f64,
+    /// Number of rendering threads.
+    pub(super) threads: usize,
 }
 
 /// The energy balance of each component that photons bring, summed over the iterations.
@@ -61,40 +61,40 @@ struct Note<'a> {
     reason: &'a str,
 }
 
+impl<'a> Note<'a> {
+    fn new(note: &'a PlanNote) -> Self {
+        Self { what: note.item.to_string(), rendered: note.rendered, reason: &note.reason }
+    }
+}
+
 impl<'a> Statistics<'a> {
-    pub(super) fn new(frame: &'a Frame, cpu_seconds: f64, threads: usize) -> Self {
-        let stats = &frame.stats;
-        let passes = &stats.passes;
-        let note =
-            |n: &'a crate::engine::PlanNote| Note { what: n.item.to_string(), rendered: n.rendered, reason: &n.reason };
+    /// The statistics of a picture of this width and height in pixels, which one rendering or several made.
+    pub(super) fn new(stats: &Stats, (width, height): (u32, u32)) -> Self {
         Self {
             iterations: stats.iterations,
             photons_emitted: stats.photons_emitted,
             rays: stats.rays,
             seconds: stats.seconds,
-            cpu_seconds,
+            work: None,
             error_estimate: stats.error_estimate,
             missing_light: stats.missing_light.map(|missing| missing.to_string()),
             dropped_samples: stats.dropped_samples,
-            width: frame.image.width,
-            height: frame.image.height,
-            threads,
-            pass_seconds: PassSeconds {
-                prepare: passes.prepare,
-                camera: passes.camera,
-                photons: passes.photons,
-                map: passes.map,
-                gather: passes.gather,
-                commit: passes.commit,
-            },
+            width,
+            height,
+            pass_seconds: stats.passes,
             counters: stats.counters,
             energy: EnergyBalances {
                 caustics: stats.energy.caustics.into(),
                 interreflection: stats.energy.interreflection.into(),
                 worst_balance: stats.energy.worst_balance,
             },
-            plan: frame.plan.notes.iter().map(note).collect(),
+            plan: None,
         }
+    }
+
+    /// Adds what only the one rendering knows: its work and its plan.
+    pub(super) fn of_rendering(self, work: Work, plan: &'a PlanSummary) -> Self {
+        Self { work: Some(work), plan: Some(plan.notes.iter().map(Note::new).collect()), ..self }
     }
 
     pub(super) fn json(&self) -> Result<String, CliError> {

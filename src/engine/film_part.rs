@@ -1,7 +1,7 @@
 //! A part of a run: consecutive iterations with their measurements.
 
 use super::film_sums::FilmSums;
-use super::frame::{MissingLight, PassSeconds};
+use super::frame::{MissingLight, PassSeconds, Stats};
 use crate::transport::{Contribution, Counters, Energy, FilmStatistics, MeasuredPlan, Plan, UnseenLight};
 use flate2::Crc;
 use serde::{Deserialize, Serialize};
@@ -85,6 +85,18 @@ impl FilmPart {
     /// The last iteration of the run that was rendered, for the film or only for its measurements.
     pub fn rendered(&self) -> u64 {
         self.rendered
+    }
+
+    /// Statistics of the iterations, without the radius, which depends on the plan.
+    pub fn stats(&self) -> Stats {
+        let error_estimate = self.error_estimate();
+        Stats {
+            iterations: self.film.iterations(),
+            error_estimate,
+            missing_light: self.missing_light(error_estimate),
+            energy: self.energy,
+            ..Stats::of_work(self.counters, self.passes, self.seconds)
+        }
     }
 
     /// Whether the plans of this part and of `other` have the same measured settings.

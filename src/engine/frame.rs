@@ -62,6 +62,23 @@ pub struct Stats {
     pub energy: Energy,
 }
 
+impl Stats {
+    /// Statistics of this work, without any of a picture.
+    pub(super) fn of_work(counters: Counters, passes: PassSeconds, seconds: f64) -> Self {
+        let photons_emitted = counters.caustic_paths + counters.global_paths;
+        Self {
+            photons_emitted,
+            rays: counters.rays + counters.shadow_rays,
+            dropped_samples: counters.dropped_samples,
+            seconds,
+            photons_per_second: if seconds > 0.0 { photons_emitted as f64 / seconds } else { 0.0 },
+            passes,
+            counters,
+            ..Self::default()
+        }
+    }
+}
+
 /// Light that may be missing, because too few paths have sampled an item. `Display` says so in words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MissingLight {

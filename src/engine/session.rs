@@ -2,12 +2,12 @@
 
 use super::film_part::FilmPart;
 use super::film_sums::FilmSums;
-use super::frame::{Frame, PassSeconds, PlanSummary, Stats};
+use super::frame::{Frame, PlanSummary, Stats};
 use super::iteration::iterate;
 use super::pass_meter::{PassMeter, Work};
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Component, Contribution, Counters, PassInput, Plan};
+use crate::transport::{Cancel, Component, Contribution, PassInput, Plan};
 use crate::world::{Camera, PrepareError, World, prepare, warnings};
 use std::sync::Arc;
 use std::time::Instant;
@@ -184,38 +184,17 @@ impl Session {
             LinearImage::positive_part(width, height, pixels)
         })?;
         let Work { counters, seconds } = meter.work();
-        let stats = stats(&counters, seconds, start.elapsed().as_secs_f64());
+        let stats = Stats::of_work(counters, seconds, start.elapsed().as_secs_f64());
         Some(Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) })
     }
 
     /// Statistics of the rendering so far.
     pub fn stats(&self) -> Stats {
-        let error_estimate = self.part.error_estimate();
-        Stats {
-            iterations: self.iterations(),
-            radius: self.plan.mean_radius(self.world.view.distance, self.part.film.last()),
-            error_estimate,
-            missing_light: self.part.missing_light(error_estimate),
-            energy: self.part.energy,
-            ..stats(&self.part.counters, self.part.passes, self.part.seconds)
-        }
+        let radius = self.plan.mean_radius(self.world.view.distance, self.part.film.last());
+        Stats { radius, ..self.part.stats() }
     }
 
     fn frame_of(&self, generation: u64, image: Arc<LinearImage>, iteration: u64, stats: Stats) -> Frame {
         Frame { generation, draft: false, iteration, image, stats, plan: self.summary.clone() }
-    }
-}
-
-fn stats(counters: &Counters, passes: PassSeconds, seconds: f64) -> Stats {
-    let photons_emitted = counters.caustic_paths + counters.global_paths;
-    Stats {
-        photons_emitted,
-        rays: counters.rays + counters.shadow_rays,
-        dropped_samples: counters.dropped_samples,
-        seconds,
-        photons_per_second: if seconds > 0.0 { photons_emitted as f64 / seconds } else { 0.0 },
-        passes,
-        counters: *counters,
-        ..Stats::default()
     }
 }

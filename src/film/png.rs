@@ -36,18 +36,21 @@ impl Mask {
     ///
     /// # Errors
     ///
-    /// If the file cannot be read or decoded.
+    /// If the file cannot be read or decoded, or if its pixels are all bright or all dark: one side of the comparison would have no pixel.
     pub fn read(path: &Path) -> Result<Self, ImageError> {
         let bytes =
             read_limited(path, MAX_MASK_BYTES).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
-        let image = image::load_from_memory(&bytes)
-            .map_err(|e| ImageError::Content { file: path.to_owned(), message: e.to_string() })?
-            .into_luma8();
-        Ok(Self {
-            width: image.width(),
-            height: image.height(),
-            inside: image.iter().map(|luma| *luma > 127).collect(),
-        })
+        let wrong = |message| ImageError::Content { file: path.to_owned(), message };
+        let image = image::load_from_memory(&bytes).map_err(|e| wrong(e.to_string()))?.into_luma8();
+        let inside: Vec<_> = image.iter().map(|luma| *luma > 127).collect();
+        for (side, brightness) in [(true, "bright"), (false, "dark")] {
+            if !inside.contains(&side) {
+                return Err(wrong(format!(
+                    "the mask has no {brightness} pixel: bright ones are inside, dark ones outside"
+                )));
+            }
+        }
+        Ok(Self { width: image.width(), height: image.height(), inside })
     }
 
     /// The mask of the pixels that this mask excludes.
@@ -88,5 +91,17 @@ mod tests {
         assert!(matches!(Mask::read(&path), Err(ImageError::Read { .. })));
         fs::write(&path, b"no image").unwrap();
         assert!(matches!(Mask::read(&path), Err(ImageError::Content { .. })));
+    }
+
+    #[test]
+    fn a_mask_without_an_inside_or_an_outside_is_rejected() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.png");
+        for (pixel, missing) in [(Rgb::ZERO, "no bright pixel"), (Rgb::ONE, "no dark pixel")] {
+            let image = LinearImage { width: 2, height: 1, pixels: vec![pixel; 2] };
+            write_png(&path, &image, &ToneMap::new(0.0, ToneCurve::Srgb)).unwrap();
+            let error = Mask::read(&path).unwrap_err().to_string();
+            assert!(error.contains(missing), "{error}");
+        }
     }
 }

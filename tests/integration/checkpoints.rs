@@ -149,16 +149,20 @@ fn refuses(output: &Output, phrases: &[&str]) {
 fn the_commands_resume_and_merge() {
     let dir = tempfile::tempdir().unwrap();
     let run = |more: &[&str]| succeeds(&render(dir.path(), more));
-    run(&["--iterations", "12", "-o", "one.exr", "--checkpoint", "one.film"]);
+    run(&["--iterations", "12", "-o", "one.exr", "--checkpoint", "one.film", "--stats", "one.json"]);
     run(&["--iterations", "4", "--checkpoint", "a.film"]);
     run(&["--iterations", "12", "--resume", "a.film", "-o", "resumed.exr", "--checkpoint", "a12.film"]);
     run(&["--iterations", "5..12", "--checkpoint", "b.film"]);
     run(&["--iterations", "5..12", "--plan", "a.film", "--checkpoint", "kept.film"]);
     for parts in [&["b.film", "a.film"][..], &["one.film"], &["a12.film"]] {
-        let merge = [&["merge", "-o", "merged.exr", "--checkpoint", "all.film"], parts].concat();
+        let merge = [&["merge", "-o", "merged.exr", "--checkpoint", "all.film", "--stats", "all.json"], parts].concat();
         succeeds(&patchlight(dir.path(), &merge));
         let read = |name: &str| fs::read(dir.path().join(name)).unwrap();
         assert!(read("merged.exr") == read("one.exr"), "{parts:?}");
+        let stats = |name: &str| serde_json::from_slice::<serde_json::Value>(&read(name)).unwrap();
+        for key in ["iterations", "photons_emitted", "rays", "counters", "error_estimate"] {
+            assert_eq!(stats("all.json")[key], stats("one.json")[key], "{key} of {parts:?}");
+        }
         assert!(read("resumed.exr") == read("one.exr"));
     }
     succeeds(&patchlight(dir.path(), &["merge", "a.film", "kept.film", "-o", "kept.png"]));

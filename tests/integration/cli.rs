@@ -239,8 +239,8 @@ fn messages_name_the_file_and_a_way_to_mend_it() {
     fails(&patchlight(dir.path(), &["export", "ball.toml", "-o", "a.obj"]), 2, &["ball.toml: the scene has no object"]);
     let render = ["render", "ball.toml", "-o", "a.exr", "--iterations", "1", "--size", "6x4"];
     assert!(patchlight(dir.path(), &render).status.success());
-    let mask = ["render", "ball.toml", "-o", "mask.png", "--iterations", "1", "--size", "6x6"];
-    assert!(patchlight(dir.path(), &mask).status.success());
+    let mask = image::GrayImage::from_fn(6, 6, |x, _| image::Luma([if x < 3 { 255 } else { 0 }]));
+    mask.save(dir.path().join("mask.png")).unwrap();
     let bench = ["bench", "ball.toml", "--reference", "a.exr", "--mask", "mask.png"];
     fails(&patchlight(dir.path(), &bench), 2, &["mask.png: the mask has 6 x 6 pixels", "6 x 4"]);
 }

@@ -27,7 +27,7 @@ use toml::de::DeTable;
 pub(super) fn parse(text: &str, location: &Location) -> Result<Scene, Vec<LocatedProblem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        return Err(LocatedProblem::all(text, errors.iter().map(|e| syntax_problem(text, e)).collect()));
+        return Err(LocatedProblem::all(text, syntax_problems(text, &errors)));
     }
     let mut notes = Notes::default();
     let mut scene = tables::scene(root.get_ref(), &mut notes);
@@ -35,6 +35,14 @@ pub(super) fn parse(text: &str, location: &Location) -> Result<Scene, Vec<Locate
     check_textures(&scene, location, &mut notes);
     add_invalid(&scene, &mut notes);
     notes.finish(text).map(|()| scene)
+}
+
+/// The syntax errors with their byte offsets, only the first of a line: the others mostly follow from it.
+fn syntax_problems(text: &str, errors: &[toml::de::Error]) -> Vec<(usize, Problem)> {
+    let mut problems: Vec<_> = errors.iter().map(|error| syntax_problem(text, error)).collect();
+    problems.sort_by_key(|(offset, _)| *offset);
+    problems.dedup_by(|(next, _), (first, _)| text.get(*first..*next).is_some_and(|between| !between.contains('\n')));
+    problems
 }
 
 /// A syntax error with its byte offset.
@@ -51,8 +59,9 @@ fn syntax_problem(text: &str, error: &toml::de::Error) -> (usize, Problem) {
         said if said.starts_with("string values must be quoted") && rest_of_line.is_empty() => {
             "expected a value after `=`, found none".to_owned()
         }
-        said if needs_digit_before_point(text, span.start) => {
-            format!("{}; a number needs a digit before its point, as in 0.5", said.replace('\n', "; "))
+        said if lacks_digit_at_point(text, span.start) => {
+            let hint = "a number needs digits on both sides of its point, as in 0.5 and 5.0";
+            format!("{}; {hint}", said.replace('\n', "; "))
         }
         said => said.replace('\n', "; "),
     };
@@ -75,13 +84,18 @@ fn longest_key(text: &str) -> Range<usize> {
     longest.1
 }
 
-/// Whether the value at or around this offset begins with a point, like `.5` or `-.5`.
-fn needs_digit_before_point(text: &str, offset: usize) -> bool {
-    let begins = |c: char| matches!(c, '.' | '+' | '-') || c.is_ascii_digit();
-    let before = text.get(..offset).unwrap_or_default();
-    let start = before.trim_end_matches(begins).len();
-    let value = text.get(start..).unwrap_or_default().trim_start_matches(['+', '-']);
-    value.strip_prefix('.').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+/// Whether the number around this offset lacks a digit beside its point, like `.5`, `-.5`, `5.` and `1.e5`.
+fn lacks_digit_at_point(text: &str, offset: usize) -> bool {
+    let is_of_number = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '+' | '-' | '_');
+    let (before, after) = text.split_at(text.floor_char_boundary(offset));
+    let begin = before.trim_end_matches(is_of_number).len();
+    let end = text.len() - after.trim_start_matches(is_of_number).len();
+    let number = text.get(begin..end).unwrap_or_default();
+    number.split_once('.').is_some_and(|(whole, fraction)| {
+        let is_number = number.starts_with(['.', '+', '-']) || number.starts_with(|c: char| c.is_ascii_digit());
+        is_number
+            && (!whole.ends_with(|c: char| c.is_ascii_digit()) || !fraction.starts_with(|c: char| c.is_ascii_digit()))
+    })
 }
 
 /// Adds the problems of [`validate()`], except problems that follow from an unreadable value.

@@ -188,3 +188,16 @@ proptest::proptest! {
         drop(parse(&format!("{}{noise}{}", &text[..end], &text[end..])));
     }
 }
+
+#[test]
+fn a_number_without_a_digit_beside_its_point_gets_a_hint() {
+    for number in [".5", "-.5", "+.5", "5.", "-5.", "1.e5", "1e.5", "5.e"] {
+        let found = problems(&format!("[film]\nexposure = {number}\n"));
+        assert!(found.len() == 1 && found[0].contains("as in 0.5 and 5.0"), "{number}: {found:#?}");
+    }
+    for other in ["1,5", "0x1g", "a.b", "1_"] {
+        let found = problems(&format!("[film]\nexposure = {other}\n"));
+        assert!(found.len() == 1 && !found[0].contains("as in 0.5"), "{other}: {found:#?}");
+    }
+    assert_eq!(problems("[film]\nexposure = 5.\nwidth = .5 # .5\n").len(), 2, "one for each line");
+}
