@@ -20,6 +20,8 @@ pub(crate) enum AppCommand {
     AddFrom(Purpose),
     /// Use a file that was dropped onto the window.
     Drop(PathBuf),
+    /// Undo or repeat steps until this many are done.
+    GoTo(usize),
     /// Revert the current drag.
     CancelDrag,
     /// Leave the present scene; asks first while changes are unsaved.

@@ -7,6 +7,7 @@
 //! | `handles` | the draggable points of a scene: which exist, where they lie, how they move |
 //! | `placement` | where new items go |
 //! | `edit` | [`Edit`]: every change of a scene, as data |
+//! | `edit_name` | the names of edits in menus and in the history |
 //! | `history` | undo and redo of whole states |
 //! | `kinds` | the kinds of shapes, lights, materials and textures: names, and conversions |
 //! | `new_items` | the items that "Add", "Duplicate" and "New scene" create |
@@ -14,6 +15,7 @@
 //! | `state` | [`Document`]: the scene with its file, selection and history |
 
 mod edit;
+mod edit_name;
 pub(crate) mod handles;
 mod history;
 pub(crate) mod kinds;

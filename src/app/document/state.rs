@@ -1,6 +1,7 @@
 //! The edited scene with its file, its selection and its undo history.
 
 use super::edit::{Edit, EditKey};
+use super::edit_name::edit_name;
 use super::history::History;
 use super::selection::Selection;
 use super::stamp::Stamp;
@@ -75,12 +76,13 @@ impl Document {
     /// make one undo step.
     pub(crate) fn edit(&mut self, edit: Edit) {
         let (key, selects) = (edit.key(), edit.selects(&self.file.scene));
+        let name = edit_name(&edit, &self.file.scene);
         let mut scene = self.file.scene.clone();
         edit.apply(&mut scene);
         if scene == self.file.scene {
             return;
         }
-        self.history.record((Arc::clone(&self.file), self.selection.clone()), key);
+        self.history.record((Arc::clone(&self.file), self.selection.clone()), key, || name);
         self.file = Arc::new(SceneFile { scene, location: self.file.location.clone() });
         let selection = selects.map_or_else(|| std::mem::take(&mut self.selection), Selection::of);
         self.selection = selection.within(&self.file.scene);
@@ -98,13 +100,33 @@ impl Document {
     }
 
     /// The name of the edit that undo would revert; `None` without such a step.
-    pub(crate) fn undoable(&self) -> Option<&'static str> {
-        self.history.undoable().map(|(label, _)| label)
+    pub(crate) fn undoable(&self) -> Option<&str> {
+        self.history.undoable()
     }
 
     /// The name of the edit that redo would repeat; `None` without such a step.
-    pub(crate) fn redoable(&self) -> Option<&'static str> {
-        self.history.redoable().map(|(label, _)| label)
+    pub(crate) fn redoable(&self) -> Option<&str> {
+        self.history.redoable()
+    }
+
+    /// The names of all undo steps, from the oldest: first the done ones, then the undone ones.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = &str> {
+        self.history.steps()
+    }
+
+    /// How many of the undo steps are done.
+    pub(crate) fn done_steps(&self) -> usize {
+        self.history.done()
+    }
+
+    /// Undoes or repeats steps until this many are done.
+    pub(crate) fn go_to(&mut self, done: usize) {
+        for _ in done..self.history.done() {
+            self.undo();
+        }
+        for _ in self.history.done()..done.min(self.history.steps().count()) {
+            self.redo();
+        }
     }
 
     /// Reverts the last undo step, if any.
@@ -181,6 +203,20 @@ mod tests {
         assert!(!document.is_dirty(), "saved");
         document.undo();
         assert!(document.is_dirty(), "before the save");
+    }
+
+    #[test]
+    fn the_history_leads_to_every_state() {
+        let mut document = document();
+        for _ in 0..4 {
+            nudge(&mut document);
+            document.end_gesture();
+        }
+        for (done, x) in [(1, 1.0), (4, 4.0), (0, 0.0), (99, 4.0), (2, 2.0)] {
+            document.go_to(done);
+            assert_eq!(lamp(&document), x * DVec3::X, "{done} steps done");
+        }
+        assert_eq!(document.steps().collect::<Vec<_>>(), ["move light lamp"; 4]);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::state::Editor;
 use crate::app::canvas::Picture;
 use crate::app::commands::{AppCommand, action};
 use crate::app::panels::{outline_ui, progress_ui, properties_ui};
-use crate::app::shell::{Visibility, dialog_ui, drop_hint_ui, menu_ui, notices_ui, status_bar_ui};
+use crate::app::shell::{Visibility, dialog_ui, drop_hint_ui, history_ui, menu_ui, notices_ui, status_bar_ui};
 use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 
 /// Height of the outline, screen points: it fits every section of a scene with ten objects.
@@ -61,7 +61,8 @@ impl Editor {
     }
 
     fn bars_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-        let visible = Visibility { handles: self.canvas.show_handles, panels: self.show_panels };
+        let visible =
+            Visibility { handles: self.canvas.show_handles, panels: self.show_panels, history: self.show_history };
         Panel::top("menu").show(ui, |ui| menu_ui(ui, &self.document, self.rendering.is_paused(), visible, commands));
         let film = &self.document.scene().film;
         Panel::bottom("status").show(ui, |ui| status_bar_ui(ui, film, &self.rendering, &self.canvas));
@@ -105,6 +106,9 @@ impl Editor {
         ui.scope_builder(UiBuilder::new().max_rect(canvas), |ui| {
             notices_ui(ui, self.document.scene(), &self.rendering, &self.chooser, commands);
         });
+        if self.show_history && self.dialog.is_none() {
+            history_ui(ui.ctx(), canvas, &self.document, commands);
+        }
     }
 }
 

@@ -22,6 +22,7 @@ pub(crate) struct Editor {
     /// The step that follows once the scene is saved.
     pub(crate) after_save: Option<Next>,
     pub(crate) show_panels: bool,
+    pub(crate) show_history: bool,
     /// Whether the window may close, because the changes are saved or the user discards them.
     pub(crate) may_close: bool,
 }
@@ -43,6 +44,7 @@ impl Editor {
             toasts: Toasts::default().with_anchor(Anchor::BottomLeft).with_margin(egui::vec2(12.0, 34.0)),
             after_save: None,
             show_panels: true,
+            show_history: false,
             may_close: false,
         }
     }

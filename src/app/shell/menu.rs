@@ -10,6 +10,7 @@ use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
 pub(crate) struct Visibility {
     pub(crate) handles: bool,
     pub(crate) panels: bool,
+    pub(crate) history: bool,
 }
 
 /// The menu bar: menus on the left, buttons on the right.
@@ -22,7 +23,7 @@ pub(crate) fn menu_ui(
 ) {
     MenuBar::new().ui(ui, |ui| {
         ui.menu_button("File", |ui| file_ui(ui, commands));
-        ui.menu_button("Edit", |ui| edit_ui(ui, document, commands));
+        ui.menu_button("Edit", |ui| edit_ui(ui, document, visible, commands));
         ui.menu_button("View", |ui| view_ui(ui, visible, commands));
         ui.menu_button("Render", |ui| {
             let pause = if paused { "Resume" } else { "Pause" };
@@ -55,11 +56,12 @@ fn file_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     item_ui(ui, Action::Quit, Action::Quit.label(), true, commands);
 }
 
-fn edit_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+fn edit_ui(ui: &mut Ui, document: &Document, visible: Visibility, commands: &mut Vec<AppCommand>) {
     for (action, what) in [(Action::Undo, document.undoable()), (Action::Redo, document.redoable())] {
         let label = format!("{} {}", action.label(), what.unwrap_or_default());
         item_ui(ui, action, label.trim_end(), what.is_some(), commands);
     }
+    toggle_ui(ui, Action::ToggleHistory, visible.history, commands);
     ui.separator();
     for action in [Action::Duplicate, Action::Delete] {
         item_ui(ui, action, action.label(), true, commands);
@@ -72,11 +74,7 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
     }
     ui.separator();
     for (action, on) in [(Action::ToggleHandles, visible.handles), (Action::TogglePanels, visible.panels)] {
-        let mut on = on;
-        let text = format!("{}  ({})", action.label(), action.shortcut(ui.ctx()));
-        if ui.checkbox(&mut on, text).clicked() {
-            commands.push(AppCommand::Do(action));
-        }
+        toggle_ui(ui, action, on, commands);
     }
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
     ui.separator();
@@ -89,6 +87,14 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
         if ui.radio(current == theme, label).clicked() {
             commands.push(AppCommand::Theme(theme));
         }
+    }
+}
+
+/// A check mark before an action that shows or hides a part of the window.
+fn toggle_ui(ui: &mut Ui, action: Action, mut on: bool, commands: &mut Vec<AppCommand>) {
+    let text = format!("{}  ({})", action.label(), action.shortcut(ui.ctx()));
+    if ui.checkbox(&mut on, text).clicked() {
+        commands.push(AppCommand::Do(action));
     }
 }
 

@@ -5,17 +5,20 @@
 //! | `menu` | the menu bar, with buttons for frequent actions |
 //! | `notices` | messages over the picture: failures, problems of the scene, a lack of light, a slow file dialog |
 //! | `status_bar` | engine status, counts, the pixel under the pointer, the zoom |
+//! | `history` | the list of undo steps |
 //! | `drop_hint` | what a file that is dragged over the window will do |
 //! | `dialogs` | modal dialogs: unsaved changes, errors, paths, surface export, help |
 
 mod dialogs;
 mod drop_hint;
+mod history;
 mod menu;
 mod notices;
 mod status_bar;
 
 pub(crate) use dialogs::{Dialog, dialog_ui};
 pub(crate) use drop_hint::{drop_hint, drop_hint_ui};
+pub(crate) use history::history_ui;
 pub(crate) use menu::{Visibility, menu_ui};
 pub(crate) use notices::notices_ui;
 pub(crate) use status_bar::status_bar_ui;

@@ -7,6 +7,7 @@
 //! | `files` | opening, saving, leaving scenes |
 //! | `drops` | dropped files |
 //! | `exports` | exporting pictures and surfaces |
+//! | `history` | the list of undo steps |
 //! | `keys` | shortcuts, the help |
 //! | `panels` | the outline, adding and deleting, notices |
 //! | `fields` | typed numbers and names |
@@ -17,6 +18,7 @@ mod exports;
 mod fields;
 mod files;
 mod frames;
+mod history;
 mod keys;
 mod panels;
 

@@ -1,0 +1,91 @@
+//! The names of edits in menus and in the history, with the name of the edited item.
+
+use super::edit::Edit;
+use super::handles::Handle;
+use super::selection::Item;
+use crate::scene::Scene;
+
+/// Most letters of an item's name in the name of an edit.
+const LONGEST: usize = 32;
+
+/// The name of an edit of `scene`, to follow the word "Undo": what it does, and to which item.
+pub(super) fn edit_name(edit: &Edit, scene: &Scene) -> String {
+    let (action, _) = edit.key();
+    match edit {
+        Edit::Object(index, _) => with_item(action, name_of(scene, Item::Object(*index))),
+        Edit::Material(index, _) => with_item(action, name_of(scene, Item::Material(*index))),
+        Edit::Light(index, _) => with_item(action, name_of(scene, Item::Light(*index))),
+        Edit::Texture(index, _) => with_item(action, name_of(scene, Item::Texture(*index))),
+        Edit::Move(handles, _) => move_name(action, handles, scene),
+        Edit::Place(object, ..) => with_item(&format!("{action} of"), name_of(scene, Item::Object(*object))),
+        Edit::AddObject(object) => with_item(action, Some(&object.name)),
+        Edit::AddMaterial(material) => with_item(action, Some(&material.name)),
+        Edit::AddLight(light) => with_item(action, Some(&light.name)),
+        Edit::AddTexture(texture) => with_item(action, Some(&texture.name)),
+        Edit::Remove(item) => with_item(action, name_of(scene, *item)),
+        _ => action.to_owned(),
+    }
+}
+
+fn move_name(action: &str, handles: &[Handle], scene: &Scene) -> String {
+    match handles {
+        [Handle::Point { object, .. }] => with_item(&format!("{action} of"), name_of(scene, Item::Object(*object))),
+        [Handle::Point { object, .. }, ..] => {
+            let action = format!("move {} control points of", handles.len());
+            with_item(&action, name_of(scene, Item::Object(*object)))
+        }
+        [Handle::Object(object), ..] => with_item(action, name_of(scene, Item::Object(*object))),
+        [Handle::Light(light), ..] => with_item(action, name_of(scene, Item::Light(*light))),
+        [] => action.to_owned(),
+    }
+}
+
+fn with_item(action: &str, item: Option<&str>) -> String {
+    let Some(item) = item else { return action.to_owned() };
+    match item.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{action} {}…", &item[..end]),
+        None => format!("{action} {item}"),
+    }
+}
+
+/// The name of an item; `None` for the camera, the settings, and an item that the scene lacks.
+fn name_of(scene: &Scene, item: Item) -> Option<&str> {
+    Some(match item {
+        Item::Camera | Item::Settings => return None,
+        Item::Object(index) => &scene.objects.get(index)?.name,
+        Item::Material(index) => &scene.materials.get(index)?.name,
+        Item::Light(index) => &scene.lights.get(index)?.name,
+        Item::Texture(index) => &scene.textures.get(index)?.name,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::selection::PointIndex;
+    use super::*;
+    use crate::scene::{Camera, SceneFile, Shape};
+    use glam::DVec3;
+
+    #[test]
+    fn an_edit_names_its_item() {
+        let scene = SceneFile::built_in("report").unwrap().scene;
+        let object = scene.objects.iter().position(|object| matches!(object.shape, Shape::Bezier(_))).unwrap();
+        let (sheet, lamp) = (&scene.objects[object], &scene.lights[0]);
+        let name = |edit: Edit| edit_name(&edit, &scene);
+        let point = |i| Handle::Point { object, point: PointIndex { patch: 0, i, j: 0 } };
+        let (one, two) = (vec![point(0)], vec![point(0), point(1)]);
+        assert_eq!(name(Edit::Move(one, DVec3::X)), format!("move control point of {}", sheet.name));
+        assert_eq!(name(Edit::Move(two, DVec3::X)), format!("move 2 control points of {}", sheet.name));
+        assert_eq!(name(Edit::Move(vec![Handle::Light(0)], DVec3::X)), format!("move light {}", lamp.name));
+        assert_eq!(name(Edit::Remove(Item::Object(object))), format!("delete {}", sheet.name));
+        assert_eq!(name(Edit::AddLight(lamp.clone())), format!("add light {}", lamp.name));
+        assert_eq!(name(Edit::Camera(Camera::default())), "edit camera");
+        assert_eq!(name(Edit::Remove(Item::Object(99))), "delete", "an item that the scene lacks");
+    }
+
+    #[test]
+    fn a_long_name_is_shortened() {
+        assert_eq!(with_item("delete", Some(&"ä".repeat(33))), format!("delete {}…", "ä".repeat(32)));
+        assert_eq!(with_item("delete", Some(&"ä".repeat(32))), format!("delete {}", "ä".repeat(32)));
+    }
+}
