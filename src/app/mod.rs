@@ -11,6 +11,7 @@
 //! | `keyboard` | corrections of egui's handling of keys |
 //! | `document` | the edited scene: selection, handles, edits, undo |
 //! | `commands` | every request of the user, as data |
+//! | `keeping` | what outlives the window: unsaved changes |
 //! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |
 //! | `canvas` | the picture with its handles: zoom, pick, drag |
 //! | `panels` | the side panels: outline, properties, progress |
@@ -25,6 +26,7 @@ mod commands;
 mod document;
 mod editor;
 mod files;
+mod keeping;
 mod keyboard;
 mod panels;
 mod rendering;

@@ -1,5 +1,6 @@
 //! Opens the window on a scene, or explains why no window can open.
 
+use super::keeping::Folders;
 use super::window::Window;
 use crate::engine::EngineError;
 use crate::scene::{Location, SceneFile};
@@ -81,7 +82,7 @@ fn open_window(file: SceneFile, render: &str) -> Result<(), AppError> {
             "patchlight",
             options,
             Box::new(move |creation| {
-                let window = Window::new(creation, file)?;
+                let window = Window::new(creation, file, Folders::of_user())?;
                 created.store(true, Ordering::Relaxed);
                 Ok(Box::new(window))
             }),

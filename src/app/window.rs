@@ -2,6 +2,7 @@
 
 use crate::app::commands::{AppCommand, Next};
 use crate::app::editor::Editor;
+use crate::app::keeping::Folders;
 use crate::app::keyboard;
 use crate::app::theme;
 use crate::engine::{Engine, EngineError, EngineSettings};
@@ -17,16 +18,24 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Starts an engine and sends it the scene.
+    /// Starts an engine and sends it the scene. Without folders, nothing outlives the window but the files that the user saves.
     ///
     /// # Errors
     /// Returns an error when the engine's thread or thread pool cannot start.
-    pub(crate) fn new(creation: &CreationContext<'_>, file: SceneFile) -> Result<Self, EngineError> {
+    pub(crate) fn new(
+        creation: &CreationContext<'_>,
+        file: SceneFile,
+        folders: Option<Folders>,
+    ) -> Result<Self, EngineError> {
         theme::install(&creation.egui_ctx);
         keyboard::install(&creation.egui_ctx);
         let ctx = creation.egui_ctx.clone();
         let engine = Engine::start(EngineSettings::default(), move || ctx.request_repaint())?;
-        Ok(Self { editor: Editor::new(file), engine, title: String::new() })
+        let mut editor = Editor::new(file);
+        if let Some(folders) = folders {
+            editor.keep_in(&creation.egui_ctx, &folders);
+        }
+        Ok(Self { editor, engine, title: String::new() })
     }
 
     /// Sends the editor's commands to the engine, and takes the engine's newest frame.

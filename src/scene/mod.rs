@@ -16,6 +16,7 @@
 //! | `surface_scene` | the scene that shows the patches of a `.bpt` file |
 //! | `file/` | [`SceneFile`]: opens and saves scenes with the files that they name |
 //! | `fingerprint` | a number that tells scenes apart |
+//! | `snapshot` | the state of a scene as text, valid or not |
 //! | `surface_export` | [`SurfaceExport`]: patches as `.obj` or `.bpt` |
 
 mod bezier;
@@ -34,6 +35,7 @@ mod object;
 mod problem;
 mod render;
 mod save;
+mod snapshot;
 mod surface_export;
 mod surface_scene;
 mod texture;

@@ -75,6 +75,8 @@ impl Drop for Running {
 /// A display without a monitor, and a keyboard and a mouse for it.
 struct Desktop {
     display: String,
+    /// In place of the user's folders.
+    home: tempfile::TempDir,
     _server: Running,
 }
 
@@ -96,7 +98,8 @@ impl Desktop {
         let stdout = server.0.stdout.take().expect("the pipe was asked for");
         BufReader::new(stdout).read_line(&mut number).expect("Xvfb says which display it took");
         assert!(!number.trim().is_empty(), "Xvfb found no free display");
-        Self { display: format!(":{}", number.trim()), _server: server }
+        let home = tempfile::tempdir().expect("a folder for what the window keeps");
+        Self { display: format!(":{}", number.trim()), home, _server: server }
     }
 
     fn run(&self, tool: &str, package: &str, arguments: &[&str]) -> Output {
@@ -110,8 +113,13 @@ impl Desktop {
     }
 
     fn open(&self, scene: &Path) -> Running {
-        let program =
-            Command::new(PROGRAM).arg(scene).env("DISPLAY", &self.display).env_remove("WAYLAND_DISPLAY").spawn();
+        let program = Command::new(PROGRAM)
+            .arg(scene)
+            .env("DISPLAY", &self.display)
+            .env_remove("WAYLAND_DISPLAY")
+            .env("XDG_STATE_HOME", self.home.path().join("state"))
+            .env("XDG_CONFIG_HOME", self.home.path().join("config"))
+            .spawn();
         let mut program = Running(program.expect("the program that was built starts"));
         let window = wait_for("a window", || {
             assert_eq!(program.0.try_wait().expect("the state of a child is known"), None, "the program ended");

@@ -30,6 +30,8 @@ pub(crate) enum AppCommand {
     Answer(Answer),
     /// Save the scene over its file, which another program has changed.
     Replace(PathBuf),
+    /// Discard the unsaved changes at this place in the list of a former window's changes.
+    DiscardLeftOver(usize),
     /// Use the typed path.
     PathEntered(PathBuf),
     /// Dismiss a slow file dialog and ask for a typed path.
@@ -53,6 +55,8 @@ pub(crate) enum Next {
     Open(PathBuf),
     /// Open the built-in scene of this name.
     Example(&'static str),
+    /// Recover the unsaved changes at this place in the list of a former window's changes.
+    Recover(usize),
     /// Close the window.
     Quit,
 }

@@ -29,4 +29,5 @@ mod state;
 pub(crate) use edit::{Edit, texture_names, user_of};
 pub(crate) use handles::Handle;
 pub(crate) use selection::{Item, PointIndex, Selection};
+pub(crate) use stamp::Stamp;
 pub(crate) use state::Document;

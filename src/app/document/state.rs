@@ -9,12 +9,12 @@ use crate::scene::{Location, Scene, SceneFile};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The edited scene. Only [`Document::edit`], [`Document::undo`], [`Document::redo`] and [`Document::abandon_gesture`]
-/// change it.
+/// The edited scene. Only edits, the undo history and saving change it.
 #[derive(Debug)]
 pub(crate) struct Document {
     file: Arc<SceneFile>,
-    saved: Arc<SceneFile>,
+    /// The scene as its file holds it; `None` for a recovered scene whose file cannot be opened.
+    saved: Option<Arc<SceneFile>>,
     /// The scene's file; `None` for a built-in scene and for a scene that was never saved.
     path: Option<PathBuf>,
     /// The scene's file as it was opened or saved last.
@@ -33,7 +33,21 @@ impl Document {
         };
         let selection = Selection::first_of(&file.scene);
         let (file, stamp) = (Arc::new(file), path.as_deref().and_then(Stamp::of));
-        Self { saved: Arc::clone(&file), file, path, stamp, selection, history: History::default() }
+        Self { saved: Some(Arc::clone(&file)), file, path, stamp, selection, history: History::default() }
+    }
+
+    /// The document of recovered changes: `file` is the present scene, `stamp` the state of the scene's file that the changes are based
+    /// on. The first undo step leads back to `base`, the scene in that file.
+    pub(crate) fn recovered(file: SceneFile, base: Option<SceneFile>, stamp: Option<Stamp>) -> Self {
+        let mut document = Self::new(file);
+        document.stamp = stamp;
+        document.saved = base.map(Arc::new);
+        if let Some(base) = &document.saved {
+            let before = (Arc::clone(base), Selection::first_of(&base.scene));
+            document.history.record(before, ("recover", 0), || "recover the changes".to_owned());
+            document.history.end_gesture();
+        }
+        document
     }
 
     /// The present state of the scene.
@@ -51,6 +65,11 @@ impl Document {
         self.path.as_deref()
     }
 
+    /// The scene's file as it was opened or saved last; `None` without a file.
+    pub(crate) fn stamp(&self) -> Option<Stamp> {
+        self.stamp
+    }
+
     /// Whether another program has changed the scene's file since it was opened or saved last.
     pub(crate) fn is_changed_outside(&self) -> bool {
         let present = self.path.as_deref().and_then(Stamp::of);
@@ -59,7 +78,7 @@ impl Document {
 
     /// Whether the scene differs from its saved state.
     pub(crate) fn is_dirty(&self) -> bool {
-        !Arc::ptr_eq(&self.file, &self.saved) && self.file != self.saved
+        self.saved.as_ref().is_none_or(|saved| !Arc::ptr_eq(&self.file, saved) && self.file != *saved)
     }
 
     /// The file's name for the title bar, after `*` while changes are unsaved.
@@ -145,8 +164,8 @@ impl Document {
     pub(crate) fn saved_as(&mut self, path: PathBuf, saved: SceneFile) {
         self.stamp = Stamp::of(&path);
         self.path = Some(path);
-        self.saved = Arc::new(saved);
-        self.file = Arc::clone(&self.saved);
+        self.file = Arc::new(saved);
+        self.saved = Some(Arc::clone(&self.file));
         self.history.end_gesture();
     }
 }

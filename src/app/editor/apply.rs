@@ -26,6 +26,7 @@ impl Editor {
             AppCommand::Leave(next) => self.leave(ctx, next),
             AppCommand::Answer(answer) => self.answer(ctx, answer),
             AppCommand::Replace(path) => self.replace(ctx, path),
+            AppCommand::DiscardLeftOver(index) => self.discard_left_over(index),
             AppCommand::PathEntered(path) => self.path_entered(ctx, path),
             AppCommand::TypePath => self.ask_for_typed_path(),
             AppCommand::CloseDialog => self.close_dialog(),
@@ -109,7 +110,9 @@ impl Editor {
     }
 
     fn close_dialog(&mut self) {
-        self.dialog = None;
+        if let Some(Dialog::Recovery(_)) = self.dialog.take() {
+            self.left_overs.release();
+        }
         self.after_save = None;
     }
 }

@@ -24,6 +24,7 @@ impl Editor {
             self.dialog_ended(ctx, request, outcome);
         }
         self.poll_export(ctx);
+        self.poll_recovery(ctx);
         if let Some(frame) = self.rendering.frame() {
             self.display.show(ctx, &frame.image, &self.document.scene().film);
         }

@@ -5,6 +5,7 @@
 //! | `state` | [`Editor`]: all that the window shows and remembers |
 //! | `path_request` | asks the user for a path, by file dialog or by path field |
 //! | `scenes` | opens, saves and leaves scenes |
+//! | `recovery` | keeps unsaved changes, and recovers those of former windows |
 //! | `chosen_path` | uses a chosen path: open, save, export, add |
 //! | `apply` | the one place that carries out commands |
 //! | `layout` | draws the content, then carries out the commands that its parts push |
@@ -13,6 +14,7 @@ mod apply;
 mod chosen_path;
 mod layout;
 mod path_request;
+mod recovery;
 mod scenes;
 mod state;
 

@@ -82,7 +82,9 @@ impl Editor {
             Next::New => self.show(SceneFile { scene: new_items::empty_scene(), location: Location::Unsaved }),
             Next::Open(path) => self.open(SceneFile::open(&path), &path.display().to_string()),
             Next::Example(name) => self.open(SceneFile::built_in(name), name),
+            Next::Recover(index) => self.recover(index),
             Next::Quit => {
+                self.autosave.end();
                 self.may_close = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
@@ -101,9 +103,13 @@ impl Editor {
         self.dialog = Some(Dialog::Error(format!("{name} cannot be opened"), error.to_string()));
     }
 
-    /// Replaces the document by another scene, and shows the whole picture.
     fn show(&mut self, file: SceneFile) {
-        self.document = Document::new(file);
+        self.replace_document(Document::new(file));
+    }
+
+    /// Replaces the document by another one, and shows the whole picture.
+    pub(crate) fn replace_document(&mut self, document: Document) {
+        self.document = document;
         self.canvas.fit();
         self.export.cancel_picture();
     }

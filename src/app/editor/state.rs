@@ -4,6 +4,7 @@ use crate::app::canvas::Canvas;
 use crate::app::commands::Next;
 use crate::app::document::Document;
 use crate::app::files::{Chooser, Export};
+use crate::app::keeping::{Autosave, LeftOvers};
 use crate::app::rendering::{Display, Rendering};
 use crate::app::shell::Dialog;
 use crate::scene::SceneFile;
@@ -17,6 +18,8 @@ pub(crate) struct Editor {
     pub(crate) display: Display,
     pub(crate) chooser: Chooser,
     pub(crate) export: Export,
+    pub(crate) autosave: Autosave,
+    pub(crate) left_overs: LeftOvers,
     pub(crate) dialog: Option<Dialog>,
     pub(crate) toasts: Toasts,
     /// The step that follows once the scene is saved.
@@ -28,7 +31,7 @@ pub(crate) struct Editor {
 }
 
 impl Editor {
-    /// An editor of this scene, which it submits for rendering.
+    /// An editor of this scene, which it submits for rendering. It keeps nothing on disk by itself: see [`Editor::keep_in`].
     pub(crate) fn new(file: SceneFile) -> Self {
         let document = Document::new(file);
         let mut rendering = Rendering::new();
@@ -40,6 +43,8 @@ impl Editor {
             display: Display::default(),
             chooser: Chooser::default(),
             export: Export::default(),
+            autosave: Autosave::default(),
+            left_overs: LeftOvers::default(),
             dialog: None,
             toasts: Toasts::default().with_anchor(Anchor::BottomLeft).with_margin(egui::vec2(12.0, 34.0)),
             after_save: None,

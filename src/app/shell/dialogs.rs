@@ -1,8 +1,11 @@
-//! Modal dialogs: unsaved changes, errors, paths, surface export, help.
+//! Modal dialogs: unsaved changes, recovery, errors, paths, surface export, help.
 
+use super::primary::primary_ui;
+use super::recovery::recovery_ui;
 use crate::app::commands::{Action, Answer, AppCommand, Next};
 use crate::app::files::PathField;
-use egui::{Button, Context, DragValue, Grid, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
+use crate::app::keeping::LeftOverRow;
+use egui::{Context, DragValue, Grid, Id, Modal, ScrollArea, TextEdit, Ui};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -13,6 +16,8 @@ pub(crate) enum Dialog {
     Unsaved(Next),
     /// Asks whether to replace the scene's file, which another program has changed.
     ChangedOutside(PathBuf),
+    /// Asks what to do with the unsaved changes of windows that ended without saving.
+    Recovery(Vec<LeftOverRow>),
     /// Reports an error: title, text.
     Error(String, String),
     /// Asks for a path.
@@ -30,6 +35,7 @@ pub(crate) fn dialog_ui(ctx: &Context, dialog: &mut Dialog, document_title: &str
         match dialog {
             Dialog::Unsaved(next) => unsaved_ui(ui, document_title, next, commands),
             Dialog::ChangedOutside(path) => changed_ui(ui, path, commands),
+            Dialog::Recovery(rows) => recovery_ui(ui, rows, commands),
             Dialog::Error(title, text) => error_ui(ui, title, text, commands),
             Dialog::Path(field) => field.ui(ui, commands),
             Dialog::Surface(name, steps) => surface_ui(ui, name, steps, commands),
@@ -44,7 +50,7 @@ pub(crate) fn dialog_ui(ctx: &Context, dialog: &mut Dialog, document_title: &str
 fn unsaved_ui(ui: &mut Ui, title: &str, next: &Next, commands: &mut Vec<AppCommand>) {
     let before = match next {
         Next::Quit => "closing the window",
-        Next::New | Next::Open(_) | Next::Example(_) => "opening another scene",
+        Next::New | Next::Open(_) | Next::Example(_) | Next::Recover(_) => "opening another scene",
     };
     ui.heading("Save the changes?");
     ui.label(format!("{} has unsaved changes. Save the changes before {before}?", title.trim_start_matches('*')));
@@ -152,14 +158,6 @@ fn close_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     if primary_ui(ui, "Close") {
         commands.push(AppCommand::CloseDialog);
     }
-}
-
-/// The first button of a dialog. Whether the user pressed it, or Enter while no widget has the keyboard.
-fn primary_ui(ui: &mut Ui, label: &str) -> bool {
-    let unfocused = ui.memory(|memory| memory.focused().is_none());
-    let selection = ui.visuals().selection;
-    let button = Button::new(RichText::new(label).color(selection.stroke.color)).fill(selection.bg_fill);
-    ui.add(button).clicked() || (unfocused && ui.input(|input| input.key_pressed(Key::Enter)))
 }
 
 /// Maximum height of a dialog's content, screen points, so that its title and buttons stay within the window.

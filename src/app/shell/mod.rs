@@ -7,13 +7,17 @@
 //! | `status_bar` | engine status, counts, the pixel under the pointer, the zoom |
 //! | `history` | the list of undo steps |
 //! | `drop_hint` | what a file that is dragged over the window will do |
-//! | `dialogs` | modal dialogs: unsaved changes, errors, paths, surface export, help |
+//! | `primary` | the first button of a dialog |
+//! | `recovery` | the dialog about unsaved changes of former windows |
+//! | `dialogs` | modal dialogs: unsaved changes, recovery, errors, paths, surface export, help |
 
 mod dialogs;
 mod drop_hint;
 mod history;
 mod menu;
 mod notices;
+mod primary;
+mod recovery;
 mod status_bar;
 
 pub(crate) use dialogs::{Dialog, dialog_ui};

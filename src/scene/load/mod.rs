@@ -25,15 +25,30 @@ use toml::de::DeTable;
 ///
 /// All problems of the text and of these files, in the order of the text.
 pub(super) fn parse(text: &str, location: &Location) -> Result<Scene, Vec<LocatedProblem>> {
+    read(text, |scene, notes| {
+        load_patches(scene, location, notes);
+        check_textures(scene, location, notes);
+        add_invalid(scene, notes);
+    })
+}
+
+/// The scene of a text, valid or not. Reads no file that the scene names: such patches are left out.
+///
+/// # Errors
+///
+/// The values of the text that no scene can have.
+pub(super) fn parse_unchecked(text: &str) -> Result<Scene, Vec<LocatedProblem>> {
+    read(text, |_, _| {})
+}
+
+fn read(text: &str, check: impl FnOnce(&mut Scene, &mut Notes)) -> Result<Scene, Vec<LocatedProblem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
         return Err(LocatedProblem::all(text, syntax_problems(text, &errors)));
     }
     let mut notes = Notes::default();
     let mut scene = tables::scene(root.get_ref(), &mut notes);
-    load_patches(&mut scene, location, &mut notes);
-    check_textures(&scene, location, &mut notes);
-    add_invalid(&scene, &mut notes);
+    check(&mut scene, &mut notes);
     notes.finish(text).map(|()| scene)
 }
 

@@ -10,6 +10,7 @@
 //! | `history` | the list of undo steps |
 //! | `keys` | shortcuts, the help |
 //! | `panels` | the outline, adding and deleting, notices |
+//! | `recovery` | unsaved changes of windows that ended |
 //! | `fields` | typed numbers and names |
 
 mod canvas;
@@ -21,6 +22,7 @@ mod frames;
 mod history;
 mod keys;
 mod panels;
+mod recovery;
 
 use crate::app::document::{Item, Selection};
 use crate::app::editor::Editor;
