@@ -12,6 +12,7 @@
 //! | `document` | the edited scene: selection, handles, edits, undo |
 //! | `commands` | every request of the user, as data |
 //! | `keeping` | what outlives the window: unsaved changes |
+//! | `viewpoint` | the camera that the window shows the scene with: orbit, pan, dolly |
 //! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |
 //! | `canvas` | the picture with its handles: zoom, pick, drag |
 //! | `panels` | the side panels: outline, properties, progress |
@@ -33,6 +34,7 @@ mod rendering;
 mod shell;
 mod startup;
 mod theme;
+mod viewpoint;
 mod window;
 
 pub use startup::{AppError, run};

@@ -7,10 +7,12 @@
 //! | `drag` | the position of a dragged handle |
 //! | `picking` | the nearest object under a film point |
 //! | `stage` | the handles on the screen, and which handles a click or drag affects |
+//! | `navigation` | [`Navigation`](navigation::Navigation): drags and the wheel move the camera |
 //! | `overlay` | painting of control nets, handles and drag axes |
 //! | `widget` | [`Canvas`]: pointer and keyboard input on the picture |
 
 mod drag;
+mod navigation;
 mod overlay;
 mod picking;
 mod projection;

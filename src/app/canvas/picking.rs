@@ -7,8 +7,17 @@ use glam::DVec3;
 
 /// The index of the nearest object that the ray meets; `None` where the ray meets no object.
 pub(crate) fn nearest_object(scene: &Scene, ray: &Ray) -> Option<usize> {
+    nearest_hit(scene, ray).map(|(index, _)| index)
+}
+
+/// The nearest point in which the ray meets an object; `None` where the ray meets no object.
+pub(crate) fn nearest_point(scene: &Scene, ray: &Ray) -> Option<DVec3> {
+    nearest_hit(scene, ray).map(|(_, distance)| ray.at(distance))
+}
+
+fn nearest_hit(scene: &Scene, ray: &Ray) -> Option<(usize, f64)> {
     let hits = scene.objects.iter().enumerate().filter_map(|(index, object)| Some((index, distance(object, ray)?)));
-    hits.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(index, _)| index)
+    hits.min_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 
 /// Distance along the ray to the object, scene units; `None` where the ray misses.
@@ -115,5 +124,6 @@ mod tests {
         let scene = Scene { objects: vec![ball(0.0), ball(5.0), ball(-5.0)], ..Scene::default() };
         assert_eq!(nearest_object(&scene, &ray(0.1, 0.1)), Some(1));
         assert_eq!(nearest_object(&scene, &ray(3.0, 0.0)), None);
+        assert_eq!(nearest_point(&scene, &ray(0.0, 0.0)), Some(DVec3::new(0.0, 0.0, 6.0)));
     }
 }

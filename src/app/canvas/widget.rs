@@ -1,6 +1,7 @@
 //! The canvas widget: the picture with its handles, and the pointer and keyboard input on it.
 
 use super::drag::{Constraint, Drag};
+use super::navigation::Navigation;
 use super::overlay;
 use super::picking;
 use super::projection::Projection;
@@ -27,12 +28,20 @@ pub(crate) struct Canvas {
     /// Column and row of the film pixel under the pointer.
     pub(crate) pixel: Option<(u32, u32)>,
     pub(crate) show_handles: bool,
+    pub(crate) navigation: Navigation,
     drag: Option<Drag>,
 }
 
 impl Default for Canvas {
     fn default() -> Self {
-        Self { view: View::Fit, transform: None, pixel: None, show_handles: true, drag: None }
+        Self {
+            view: View::Fit,
+            transform: None,
+            pixel: None,
+            show_handles: true,
+            navigation: Navigation::default(),
+            drag: None,
+        }
     }
 }
 
@@ -72,6 +81,9 @@ impl Canvas {
             pick(ui, &stage, &drawn, &response, commands);
             if self.show_handles {
                 self.handles_ui(ui, &stage, &drawn, &response, commands);
+            }
+            if self.drag.is_none() && self.navigation.navigate(ui, &stage, &scene.camera, &response, commands) {
+                return;
             }
         }
         self.navigate(ui, &response, &transform);
@@ -127,8 +139,15 @@ impl Canvas {
         if let Some(bezier) = stage.document.selection.bezier(stage.document.scene()) {
             overlay::paint_net(&painter, stage, bezier);
         }
-        self.drag_from_canvas(ui, stage, drawn, canvas, commands);
+        let takes_pointer = self.drag.is_some() || !self.navigation.takes_pointer(ui);
+        if takes_pointer {
+            self.drag_from_canvas(ui, stage, drawn, canvas, commands);
+        }
         for screen_handle in drawn {
+            if !takes_pointer {
+                overlay::paint_handle(&painter, stage, screen_handle, false);
+                continue;
+            }
             let response = handle_ui(ui, stage, screen_handle);
             self.respond(ui, stage, screen_handle.handle, &response, commands);
             let hot = response.hovered() || response.dragged() || near == Some(screen_handle.handle);

@@ -3,6 +3,7 @@
 use super::action::Action;
 use super::purpose::Purpose;
 use crate::app::document::{Edit, Selection};
+use crate::scene::Camera;
 use egui::ThemePreference;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -16,6 +17,8 @@ pub(crate) enum AppCommand {
     Edit(Edit),
     /// Change the selection.
     Select(Selection),
+    /// Show the scene with this camera.
+    View(Camera),
     /// Ask for a file to add to the scene.
     AddFrom(Purpose),
     /// Use a file that was dropped onto the window.

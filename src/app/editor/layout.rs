@@ -55,15 +55,20 @@ impl Editor {
         for command in commands {
             self.apply(ui.ctx(), command);
         }
-        if !ui.input(|input| input.pointer.any_down()) {
+        let (is_down, time) = ui.input(|input| (input.pointer.any_down(), input.time));
+        if !is_down && !self.canvas.navigation.is_wheel_turning(time) {
             self.document.end_gesture();
         }
         self.rendering.submit(self.document.file());
     }
 
     fn bars_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-        let visible =
-            Visibility { handles: self.canvas.show_handles, panels: self.show_panels, history: self.show_history };
+        let visible = Visibility {
+            navigate: self.canvas.navigation.always,
+            handles: self.canvas.show_handles,
+            panels: self.show_panels,
+            history: self.show_history,
+        };
         Panel::top("menu").show(ui, |ui| menu_ui(ui, &self.document, self.rendering.is_paused(), visible, commands));
         let film = &self.document.scene().film;
         Panel::bottom("status").show(ui, |ui| status_bar_ui(ui, film, &self.rendering, &self.canvas));

@@ -125,7 +125,7 @@ fn surface_ui(ui: &mut Ui, name: &str, steps: &mut usize, commands: &mut Vec<App
 }
 
 fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-    const MOUSE: [(&str, &str); 8] = [
+    const MOUSE: [(&str, &str); 11] = [
         ("Drag a handle", "moves the handle in the plane that faces the camera"),
         ("Drag with X, Y or Z held", "moves the handle along this axis of the world"),
         ("Esc during a drag", "reverts the drag"),
@@ -133,6 +133,9 @@ fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         ("Click in the picture", "selects the nearest object"),
         ("Wheel", "zooms about the pointer"),
         ("Drag the picture", "pans; the middle and right mouse buttons pan over handles too"),
+        ("Alt+drag", "moves the camera around the selection, or around the point under the pointer"),
+        ("Alt+Shift+drag, Alt+middle drag", "moves the camera sideways"),
+        ("Alt+right drag, Alt+wheel", "moves the camera towards the pointer"),
         ("Drag a number", "changes the number, slowly with Shift; a click starts typing"),
     ];
     ui.heading("Keys and mouse");

@@ -5,9 +5,10 @@ use crate::app::document::Document;
 use crate::scene::built_in_scenes;
 use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
 
-/// The parts of the window that the user can hide, for the menu's check marks.
+/// The states that the user can switch, for the menu's check marks.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Visibility {
+    pub(crate) navigate: bool,
     pub(crate) handles: bool,
     pub(crate) panels: bool,
     pub(crate) history: bool,
@@ -33,7 +34,10 @@ pub(crate) fn menu_ui(
             }
         });
         ui.menu_button("Help", |ui| item_ui(ui, Action::Help, Action::Help.label(), true, commands));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| buttons_ui(ui, paused, commands));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            buttons_ui(ui, paused, commands);
+            navigate_ui(ui, visible.navigate, commands);
+        });
     });
 }
 
@@ -73,7 +77,11 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
         item_ui(ui, action, action.label(), true, commands);
     }
     ui.separator();
-    for (action, on) in [(Action::ToggleHandles, visible.handles), (Action::TogglePanels, visible.panels)] {
+    for (action, on) in [
+        (Action::Navigate, visible.navigate),
+        (Action::ToggleHandles, visible.handles),
+        (Action::TogglePanels, visible.panels),
+    ] {
         toggle_ui(ui, action, on, commands);
     }
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
@@ -115,5 +123,16 @@ fn buttons_ui(ui: &mut Ui, paused: bool, commands: &mut Vec<AppCommand>) {
         if ui.button(label).on_hover_text(tip).clicked() {
             commands.push(AppCommand::Do(action));
         }
+    }
+}
+
+/// A button that is pressed while drags navigate.
+fn navigate_ui(ui: &mut Ui, on: bool, commands: &mut Vec<AppCommand>) {
+    let tip = format!(
+        "Drag to orbit, drag with the right button to pan, turn the wheel to move nearer ({}); with Alt held at any time",
+        Action::Navigate.shortcut(ui.ctx())
+    );
+    if ui.add(Button::selectable(on, "Navigate")).on_hover_text(tip).clicked() {
+        commands.push(AppCommand::Do(Action::Navigate));
     }
 }

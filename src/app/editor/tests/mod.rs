@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `canvas` | selecting and dragging handles; zoom and pan |
+//! | `navigation` | orbit, pan and dolly of the camera |
 //! | `frames` | frames, the texture, progress, failures |
 //! | `files` | opening, saving, leaving scenes |
 //! | `drops` | dropped files |
@@ -21,6 +22,7 @@ mod files;
 mod frames;
 mod history;
 mod keys;
+mod navigation;
 mod panels;
 mod recovery;
 
