@@ -10,9 +10,9 @@
 //! | `theme` | every colour of the window |
 //! | `keyboard` | corrections of egui's handling of keys |
 //! | `document` | the edited scene: selection, handles, edits, undo |
+//! | `viewpoint` | the camera that the window shows the scene with: orbit, framing, back and forward |
 //! | `commands` | every request of the user, as data |
 //! | `keeping` | what outlives the window: unsaved changes |
-//! | `viewpoint` | the camera that the window shows the scene with: orbit, pan, dolly |
 //! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |
 //! | `canvas` | the picture with its handles: zoom, pick, drag |
 //! | `panels` | the side panels: outline, properties, progress |

@@ -94,6 +94,13 @@ impl Canvas {
         self.view = View::Fit;
     }
 
+    /// Shows the whole picture, unless it already is on the canvas.
+    pub(crate) fn show_all(&mut self) {
+        if self.transform.is_some_and(|transform| !transform.canvas.contains_rect(transform.picture())) {
+            self.fit();
+        }
+    }
+
     /// Shows one film pixel per screen pixel.
     pub(crate) fn one_to_one(&mut self, pixels_per_point: f32) {
         if let Some(transform) = self.transform {

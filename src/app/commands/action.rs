@@ -1,5 +1,6 @@
 //! Actions of menus, buttons and keys. One table gives their labels and shortcuts, and the rows of the help.
 
+use crate::app::viewpoint::{NamedView, Side};
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
 /// A command without parameters.
@@ -25,6 +26,7 @@ pub(crate) enum Action {
     ZoomOut,
     Brighter,
     Darker,
+    View(NamedView),
     Navigate,
     ToggleHandles,
     TogglePanels,
@@ -73,6 +75,15 @@ const TABLE: &[Row] = &[
     (Action::ZoomOut, "Zoom out", &[(CTRL, Key::Minus)]),
     (Action::Darker, "Decrease exposure by half a stop", &[(Modifiers::SHIFT, Key::E)]),
     (Action::Brighter, "Increase exposure by half a stop", &[(NONE, Key::E)]),
+    (Action::View(NamedView::Selection), "Frame selection", &[(NONE, Key::Period)]),
+    (Action::View(NamedView::All), "Frame all", &[(NONE, Key::Home)]),
+    (Action::View(NamedView::From(Side::Front)), "View from the front", &[(NONE, Key::Num1)]),
+    (Action::View(NamedView::From(Side::Right)), "View from the right", &[(NONE, Key::Num3)]),
+    (Action::View(NamedView::From(Side::Top)), "View from above", &[(NONE, Key::Num7)]),
+    (Action::View(NamedView::From(Side::Opposite)), "View from the opposite side", &[(NONE, Key::Num9)]),
+    (Action::View(NamedView::Own), "Scene's own view", &[(NONE, Key::Num0)]),
+    (Action::View(NamedView::Previous), "Previous view", &[(Modifiers::ALT, Key::ArrowLeft)]),
+    (Action::View(NamedView::Next), "Next view", &[(Modifiers::ALT, Key::ArrowRight)]),
     (Action::Navigate, "Navigate with the mouse", &[(NONE, Key::V)]),
     (Action::ToggleHandles, "Show handles", &[(NONE, Key::H)]),
     (Action::TogglePanels, "Show panels", &[(CTRL, Key::B)]),

@@ -55,6 +55,11 @@ impl Document {
         &self.file.scene
     }
 
+    /// The scene as its file holds it; `None` for a recovered scene whose file cannot be opened.
+    pub(crate) fn saved_scene(&self) -> Option<&Scene> {
+        self.saved.as_ref().map(|file| &file.scene)
+    }
+
     /// The scene with the location that its file paths are relative to.
     pub(crate) fn file(&self) -> &Arc<SceneFile> {
         &self.file

@@ -58,6 +58,7 @@ impl Editor {
         let (is_down, time) = ui.input(|input| (input.pointer.any_down(), input.time));
         if !is_down && !self.canvas.navigation.is_wheel_turning(time) {
             self.document.end_gesture();
+            self.visited.rest(self.document.scene().camera);
         }
         self.rendering.submit(self.document.file());
     }

@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `state` | [`Editor`]: all that the window shows and remembers |
+//! | `views` | changes the camera that the window shows the scene with |
 //! | `path_request` | asks the user for a path, by file dialog or by path field |
 //! | `scenes` | opens, saves and leaves scenes |
 //! | `recovery` | keeps unsaved changes, and recovers those of former windows |
@@ -17,6 +18,7 @@ mod path_request;
 mod recovery;
 mod scenes;
 mod state;
+mod views;
 
 #[cfg(test)]
 mod tests;

@@ -4,6 +4,7 @@ use super::state::Editor;
 use crate::app::commands::{Answer, Next, Purpose};
 use crate::app::document::{Document, new_items};
 use crate::app::shell::Dialog;
+use crate::app::viewpoint::Visited;
 use crate::scene::{Location, SceneError, SceneFile};
 use egui::{Context, ViewportCommand};
 use std::path::{Path, PathBuf};
@@ -110,6 +111,7 @@ impl Editor {
     /// Replaces the document by another one, and shows the whole picture.
     pub(crate) fn replace_document(&mut self, document: Document) {
         self.document = document;
+        self.visited = Visited::new(self.document.scene().camera);
         self.canvas.fit();
         self.export.cancel_picture();
     }

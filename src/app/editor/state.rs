@@ -7,6 +7,7 @@ use crate::app::files::{Chooser, Export};
 use crate::app::keeping::{Autosave, LeftOvers};
 use crate::app::rendering::{Display, Rendering};
 use crate::app::shell::Dialog;
+use crate::app::viewpoint::Visited;
 use crate::scene::SceneFile;
 use egui_notify::{Anchor, Toasts};
 
@@ -14,6 +15,8 @@ use egui_notify::{Anchor, Toasts};
 pub(crate) struct Editor {
     pub(crate) document: Document,
     pub(crate) rendering: Rendering,
+    /// The views that the user visited.
+    pub(crate) visited: Visited,
     pub(crate) canvas: Canvas,
     pub(crate) display: Display,
     pub(crate) chooser: Chooser,
@@ -37,6 +40,7 @@ impl Editor {
         let mut rendering = Rendering::new();
         rendering.submit(document.file());
         Self {
+            visited: Visited::new(document.scene().camera),
             document,
             rendering,
             canvas: Canvas::default(),

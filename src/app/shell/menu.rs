@@ -2,6 +2,7 @@
 
 use crate::app::commands::{Action, AppCommand, Next};
 use crate::app::document::Document;
+use crate::app::viewpoint::{NamedView, Side};
 use crate::scene::built_in_scenes;
 use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
 
@@ -77,6 +78,8 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
         item_ui(ui, action, action.label(), true, commands);
     }
     ui.separator();
+    named_views_ui(ui, commands);
+    ui.separator();
     for (action, on) in [
         (Action::Navigate, visible.navigate),
         (Action::ToggleHandles, visible.handles),
@@ -103,6 +106,21 @@ fn toggle_ui(ui: &mut Ui, action: Action, mut on: bool, commands: &mut Vec<AppCo
     let text = format!("{}  ({})", action.label(), action.shortcut(ui.ctx()));
     if ui.checkbox(&mut on, text).clicked() {
         commands.push(AppCommand::Do(action));
+    }
+}
+
+fn named_views_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+    let mut view_ui = |ui: &mut Ui, view| {
+        let action = Action::View(view);
+        item_ui(ui, action, action.label(), true, commands);
+    };
+    ui.menu_button("View from", |ui| {
+        for side in [Side::Front, Side::Right, Side::Top, Side::Opposite] {
+            view_ui(ui, NamedView::From(side));
+        }
+    });
+    for view in [NamedView::Own, NamedView::Selection, NamedView::All, NamedView::Previous, NamedView::Next] {
+        view_ui(ui, view);
     }
 }
 

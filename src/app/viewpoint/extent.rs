@@ -19,11 +19,26 @@ pub(crate) fn of_selection(scene: &Scene, selection: &Selection) -> Vec<Sphere> 
     }
 }
 
-/// The centre of the box around all balls; `None` without balls.
-pub(crate) fn center(balls: &[Sphere]) -> Option<DVec3> {
+/// The balls around all objects; around all lights where no object has an extent.
+pub(crate) fn of_objects(scene: &Scene) -> Vec<Sphere> {
+    let objects: Vec<_> = scene.objects.iter().flat_map(|object| of_shape(&object.shape)).collect();
+    if objects.is_empty() {
+        scene.lights.iter().flat_map(|light| of_emitter(&light.emitter)).collect()
+    } else {
+        objects
+    }
+}
+
+/// The box around all balls; `None` without balls.
+pub(super) fn bounds(balls: &[Sphere]) -> Option<Aabb> {
     let ends = balls.iter().flat_map(|ball| [ball.center - ball.radius, ball.center + ball.radius]);
     let bounds = Aabb::around(ends);
-    (!bounds.is_empty()).then(|| bounds.center())
+    (!bounds.is_empty()).then_some(bounds)
+}
+
+/// The centre of the box around all balls; `None` without balls.
+pub(crate) fn center(balls: &[Sphere]) -> Option<DVec3> {
+    bounds(balls).map(|bounds| bounds.center())
 }
 
 fn of_shape(shape: &Shape) -> Vec<Sphere> {
@@ -89,5 +104,6 @@ mod tests {
         assert_eq!(ball, [Sphere { center: DVec3::X, radius: 2.0 }]);
         assert_eq!(center(&ball), Some(DVec3::X));
         assert_eq!(center(&[]), None);
+        assert_eq!(of_objects(&scene), ball, "planes do not count");
     }
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::app::canvas::{Projection, View};
-use crate::app::document::Handle;
+use crate::app::document::{Edit, Handle};
 use crate::scene::Camera;
 use egui::{Event, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, vec2};
 use glam::DVec3;
@@ -168,4 +168,81 @@ fn navigation_needs_no_alt_while_it_is_on() {
     assert_eq!((ui.state().canvas.view, &scene(&ui).objects), (View::Fit, &objects), "nothing else changes");
     click(&mut ui, "Navigate");
     assert!(ui.query_by_label(POINT).is_some(), "the button ends it");
+}
+
+/// The corners of the control net of the selected sheet, in the picture from (-1, -1) to (1, 1).
+fn sheet_in_picture(ui: &Ui) -> Vec<Vec2> {
+    let picture = ui.state().canvas.transform.unwrap().picture();
+    let bezier = ui.state().document.selection.bezier(scene(ui)).unwrap();
+    let points = bezier.placed_nets().into_iter().flat_map(|net| net.points.into_iter().flatten());
+    points.map(|point| 2.0 * (on_screen(ui, point) - picture.center()) / picture.size()).collect()
+}
+
+#[test]
+fn the_period_frames_the_selection_and_home_all_objects() {
+    let mut ui = open("report");
+    let start = camera(&ui);
+    let largest = |ui: &Ui| sheet_in_picture(ui).into_iter().map(|at| at.abs().max_elem()).fold(0.0, f32::max);
+    ui.state_mut().canvas.zoom(8.0);
+    ui.run_steps(2);
+    ui.key_press(Key::Period);
+    ui.run_steps(2);
+    assert!((largest(&ui) - 0.9).abs() < 1e-3, "the sheet fills {} of the picture", largest(&ui));
+    assert_eq!(ui.state().canvas.view, View::Fit, "the whole picture is on the canvas");
+    let near = camera(&ui);
+    ui.key_press(Key::Home);
+    ui.run_steps(2);
+    assert!(largest(&ui) < 0.8, "the whole scene is larger than the sheet: {}", largest(&ui));
+    press(&mut ui, Key::Z);
+    assert_eq!(camera(&ui), near, "one undo step");
+    press(&mut ui, Key::Z);
+    assert_eq!(camera(&ui), start);
+}
+
+#[test]
+fn an_empty_scene_has_nothing_to_frame() {
+    let mut ui = open("report");
+    for _ in 0..scene(&ui).objects.len() {
+        ui.state_mut().document.edit(Edit::Remove(Item::Object(0)));
+    }
+    for _ in 0..scene(&ui).lights.len() {
+        ui.state_mut().document.edit(Edit::Remove(Item::Light(0)));
+    }
+    let before = scene(&ui).clone();
+    ui.key_press(Key::Home);
+    ui.run_steps(2);
+    assert_eq!(*scene(&ui), before);
+    assert!(!ui.state().toasts.is_empty(), "a message says why");
+}
+
+#[test]
+fn digits_show_the_sides_and_alt_with_arrows_goes_through_the_views() {
+    let mut ui = open("report");
+    let own = camera(&ui);
+    let mut seen = vec![own];
+    for key in [Key::Num3, Key::Num1, Key::Num7, Key::Num9] {
+        ui.key_press(key);
+        ui.run_steps(2);
+        seen.push(camera(&ui));
+    }
+    let to_front = (seen[2].position - own.target).normalize();
+    assert!(to_front.distance(DVec3::Z) < 1e-12, "{to_front}");
+    for back in [3, 2, 1, 0, 0] {
+        ui.key_press_modifiers(Modifiers::ALT, Key::ArrowLeft);
+        ui.run_steps(2);
+        assert_eq!(camera(&ui), seen[back]);
+    }
+    for forward in [1, 2] {
+        ui.key_press_modifiers(Modifiers::ALT, Key::ArrowRight);
+        ui.run_steps(2);
+        assert_eq!(camera(&ui), seen[forward]);
+    }
+    ui.key_press(Key::Num0);
+    ui.run_steps(2);
+    assert_eq!(camera(&ui), own, "the scene's own view");
+    assert!(!ui.state().document.is_dirty());
+    choose_from_menu(&mut ui, &["View", "View from"]);
+    for label in ["View from above", "Frame all", "Previous view"] {
+        assert!(ui.query_by_label_contains(label).is_some(), "{label} is in the menu");
+    }
 }
