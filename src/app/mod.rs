@@ -21,10 +21,12 @@
 //! | `editor` | all that the window shows and remembers, the one `apply`, the layout |
 //! | `window` | the editor in a window of the desktop, with an engine |
 //! | `startup` | from a scene to an open window, or to a clear message |
+//! | `drag_replay` | a drag in a real window, with measurements of the window's thread |
 
 mod canvas;
 mod commands;
 mod document;
+mod drag_replay;
 mod editor;
 mod files;
 mod keeping;
@@ -37,4 +39,5 @@ mod theme;
 mod viewpoint;
 mod window;
 
+pub use drag_replay::{WindowFrame, replay_drag};
 pub use startup::{AppError, run};

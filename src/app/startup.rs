@@ -4,6 +4,7 @@ use super::keeping::Folders;
 use super::window::Window;
 use crate::engine::EngineError;
 use crate::scene::{Location, SceneFile};
+use eframe::App;
 use egui::ViewportBuilder;
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
@@ -12,6 +13,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The Debian packages of the libraries that a window loads at run time.
 const PACKAGES: &str = "libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libgl1";
+
+/// The size of a new window, points.
+const SIZE: [f32; 2] = [1280.0, 800.0];
 
 /// The reason why no window can open.
 #[derive(Debug, thiserror::Error)]
@@ -47,11 +51,7 @@ pub enum AppError {
 /// # Errors
 /// Returns an error when no window can open, or the engine cannot start.
 pub fn run(scene: SceneFile) -> Result<(), AppError> {
-    let render = render_line(&scene.location);
-    if !has_display() {
-        return Err(AppError::NoDisplay { render });
-    }
-    open_window(scene, &render)
+    open_window(scene, SIZE, |window| Box::new(window))
 }
 
 /// A sentence with the command line that renders the scene without a window.
@@ -65,14 +65,26 @@ fn has_display() -> bool {
         || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(set)
 }
 
-fn open_window(file: SceneFile, render: &str) -> Result<(), AppError> {
+/// Opens a window of this size in points on a scene, with the application that `app` makes of the window.
+///
+/// # Errors
+/// Returns an error when no window can open, or the engine cannot start.
+pub(crate) fn open_window(
+    file: SceneFile,
+    size: [f32; 2],
+    app: impl FnOnce(Window) -> Box<dyn App> + 'static,
+) -> Result<(), AppError> {
+    let render = render_line(&file.location);
+    if !has_display() {
+        return Err(AppError::NoDisplay { render });
+    }
     let shown = Arc::new(AtomicBool::new(false));
     let created = Arc::clone(&shown);
     let options = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("patchlight")
             .with_app_id("patchlight")
-            .with_inner_size([1280.0, 800.0])
+            .with_inner_size(size)
             .with_min_inner_size([640.0, 400.0])
             .with_drag_and_drop(true),
         ..Default::default()
@@ -84,11 +96,11 @@ fn open_window(file: SceneFile, render: &str) -> Result<(), AppError> {
             Box::new(move |creation| {
                 let window = Window::new(creation, file, Folders::of_user())?;
                 created.store(true, Ordering::Relaxed);
-                Ok(Box::new(window))
+                Ok(app(window))
             }),
         )
     };
-    quietly_until(&shown, run, |reason| AppError::NoWindow { reason, render: render.to_owned() })
+    quietly_until(&shown, run, |reason| AppError::NoWindow { reason, render: render.clone() })
 }
 
 /// Runs `run`. The window system's crates panic when a library is missing, so a panic before `shown` is set becomes an

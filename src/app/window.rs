@@ -38,6 +38,16 @@ impl Window {
         Ok(Self { editor, engine, title: String::new() })
     }
 
+    /// All that the window shows.
+    pub(crate) fn editor(&self) -> &Editor {
+        &self.editor
+    }
+
+    /// Lets the window close without asking about unsaved changes.
+    pub(crate) fn discard(&mut self) {
+        self.editor.may_close = true;
+    }
+
     /// Sends the editor's commands to the engine, and takes the engine's newest frame.
     fn exchange(&mut self) {
         for command in self.editor.rendering.take_commands() {

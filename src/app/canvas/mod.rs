@@ -20,7 +20,6 @@ mod stage;
 mod view;
 mod widget;
 
-#[cfg(test)]
 pub(crate) use projection::Projection;
 #[cfg(test)]
 pub(crate) use view::View;

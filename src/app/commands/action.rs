@@ -31,6 +31,7 @@ pub(crate) enum Action {
     ToggleHandles,
     TogglePanels,
     FullScreen,
+    Palette,
     Help,
 }
 
@@ -88,6 +89,7 @@ const TABLE: &[Row] = &[
     (Action::ToggleHandles, "Show handles", &[(NONE, Key::H)]),
     (Action::TogglePanels, "Show panels", &[(CTRL, Key::B)]),
     (Action::FullScreen, "Full screen", &[(NONE, Key::F11)]),
+    (Action::Palette, "Find a command…", &[(CTRL, Key::P)]),
     (Action::Help, "Keys and mouse", &[(NONE, Key::F1)]),
 ];
 

@@ -41,6 +41,8 @@ pub(crate) enum AppCommand {
     TypePath,
     /// Close the open dialog.
     CloseDialog,
+    /// Close the hint for a first start.
+    CloseHint,
     /// Stop rendering at this relative error; `None` never stops.
     Target(Option<f64>),
     /// Ask for a file to export the surface to, with this many quads along each side of a patch.

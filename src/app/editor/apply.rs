@@ -3,7 +3,7 @@
 use super::state::Editor;
 use crate::app::commands::{Action, AppCommand, Next, Purpose};
 use crate::app::document::{Edit, Item, new_items, user_of};
-use crate::app::shell::Dialog;
+use crate::app::shell::{Dialog, Palette};
 use crate::scene::Film;
 use egui::{Context, ViewportCommand};
 
@@ -31,6 +31,7 @@ impl Editor {
             AppCommand::PathEntered(path) => self.path_entered(ctx, path),
             AppCommand::TypePath => self.ask_for_typed_path(),
             AppCommand::CloseDialog => self.close_dialog(),
+            AppCommand::CloseHint => self.show_hint = false,
             AppCommand::ExportSurface(steps) => self.ask_for_surface_path(ctx, steps),
             AppCommand::Theme(theme) => ctx.set_theme(theme),
             AppCommand::Target(target) => self.rendering.set_target(target),
@@ -64,6 +65,7 @@ impl Editor {
             Action::ToggleHandles => self.canvas.show_handles = !self.canvas.show_handles,
             Action::TogglePanels => self.show_panels = !self.show_panels,
             Action::FullScreen => toggle_full_screen(ctx),
+            Action::Palette => self.dialog = Some(Dialog::Palette(Palette::default())),
             Action::Help => self.dialog = Some(Dialog::Help),
         }
     }

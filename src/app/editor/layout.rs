@@ -4,7 +4,9 @@ use super::state::Editor;
 use crate::app::canvas::Picture;
 use crate::app::commands::{AppCommand, action};
 use crate::app::panels::{outline_ui, progress_ui, properties_ui};
-use crate::app::shell::{Visibility, dialog_ui, drop_hint_ui, history_ui, menu_ui, notices_ui, status_bar_ui};
+use crate::app::shell::{
+    Visibility, dialog_ui, drop_hint_ui, first_hint_ui, history_ui, menu_ui, notices_ui, status_bar_ui,
+};
 use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 
 /// Height of the outline, screen points: it fits every section of a scene with ten objects.
@@ -48,7 +50,7 @@ impl Editor {
         }
         CentralPanel::no_frame().show(ui, |ui| self.canvas_ui(ui, &mut commands));
         if let Some(dialog) = &mut self.dialog {
-            dialog_ui(ui.ctx(), dialog, &self.document.title(), &mut commands);
+            dialog_ui(ui.ctx(), dialog, &self.document, &mut commands);
         }
         drop_hint_ui(ui.ctx());
         self.toasts.show(ui.ctx());
@@ -109,6 +111,9 @@ impl Editor {
         let canvas = ui.available_rect_before_wrap();
         let picture = Picture { texture: self.display.texture(), current: self.rendering.is_current() };
         self.canvas.show(ui, &self.document, picture, commands);
+        if self.show_hint && self.dialog.is_none() && self.document.undoable().is_none() {
+            first_hint_ui(ui, canvas, commands);
+        }
         // Notices lie over the picture, so the picture stays in place when they come and go.
         ui.scope_builder(UiBuilder::new().max_rect(canvas), |ui| {
             notices_ui(ui, self.document.scene(), &self.rendering, &self.chooser, commands);

@@ -29,6 +29,8 @@ pub(crate) struct Editor {
     pub(crate) after_save: Option<Next>,
     pub(crate) show_panels: bool,
     pub(crate) show_history: bool,
+    /// Whether the hint for a first start is shown, until the first edit.
+    pub(crate) show_hint: bool,
     /// Whether the window may close, because the changes are saved or the user discards them.
     pub(crate) may_close: bool,
 }
@@ -54,6 +56,7 @@ impl Editor {
             after_save: None,
             show_panels: true,
             show_history: false,
+            show_hint: true,
             may_close: false,
         }
     }

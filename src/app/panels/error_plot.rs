@@ -18,7 +18,10 @@ const Y_GAP: f64 = 0.16;
 /// Plots the error curve on logarithmic axes, with the target error where it lies near the curve.
 pub(super) fn error_plot_ui(ui: &mut Ui, curve: &ErrorCurve, target: Option<f64>) {
     let points = curve.points();
-    let known = !points.is_empty();
+    if points.is_empty() {
+        ui.weak("No error estimate yet");
+        return;
+    }
     let color = theme::palette(ui.visuals().dark_mode).plot;
     let target_color = ui.visuals().weak_text_color();
     let line = Line::new("error", PlotPoints::from(points.to_vec())).color(color).width(2.0);
@@ -27,8 +30,6 @@ pub(super) fn error_plot_ui(ui: &mut Ui, curve: &ErrorCurve, target: Option<f64>
     let newest = Points::new("newest error", newest).color(color).radius(3.0);
     let plot = Plot::new("error curve")
         .height(130.0)
-        .show_axes(known)
-        .show_grid(known)
         .grid_color(ui.visuals().widgets.noninteractive.bg_stroke.color)
         .x_grid_spacer(|input| round_marks(&input, X_GAP))
         .y_grid_spacer(|input| round_marks(&input, Y_GAP))
@@ -39,12 +40,8 @@ pub(super) fn error_plot_ui(ui: &mut Ui, curve: &ErrorCurve, target: Option<f64>
         .x_axis_formatter(|mark, _| format!("{} s", two_digits(10_f64.powf(mark.value))))
         .y_axis_formatter(|mark, _| format!("{} %", two_digits(100.0 * 10_f64.powf(mark.value))))
         .label_formatter(|_| None);
-    let plot = if known {
-        let ([left, right], [bottom, top]) = (span(points, 0), span(points, 1));
-        plot.include_x(left).include_x(right).include_y(bottom).include_y(top)
-    } else {
-        plot
-    };
+    let ([left, right], [bottom, top]) = (span(points, 0), span(points, 1));
+    let plot = plot.include_x(left).include_x(right).include_y(bottom).include_y(top);
     plot.show(ui, |plot| {
         plot.line(line);
         plot.points(newest);
@@ -56,7 +53,7 @@ pub(super) fn error_plot_ui(ui: &mut Ui, curve: &ErrorCurve, target: Option<f64>
             plot.hline(HLine::new("target", target).color(target_color).width(1.0));
         }
     });
-    ui.weak(if known { "Error over time, logarithmic" } else { "No error estimate yet" });
+    ui.weak("Error over time, logarithmic");
 }
 
 /// The range of the curve along one axis, decimal logarithms, widened to the least span: a shorter axis would have no round

@@ -10,6 +10,8 @@ use std::ops::RangeInclusive;
 
 /// Size of a number field, screen points: it fits the longest short number.
 const FIELD_SIZE: Vec2 = vec2(60.0, 20.0);
+/// Least width of the column of labels, screen points: the fields of all sections stand in line.
+const LABEL_WIDTH: f32 = 76.0;
 /// Digits that fit in a number field, before and after the decimal point together.
 const DIGITS: usize = 5;
 
@@ -70,7 +72,7 @@ pub(super) fn length_speed(camera: &Camera) -> f64 {
 
 /// A grid of rows, each with a label and a field.
 pub(super) fn rows(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
-    Grid::new(id).num_columns(2).spacing([8.0, 5.0]).show(ui, content);
+    Grid::new(id).num_columns(2).min_col_width(LABEL_WIDTH).spacing([8.0, 5.0]).show(ui, content);
 }
 
 /// A number field without a label; assistive technology reads `name`.

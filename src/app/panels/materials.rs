@@ -63,7 +63,7 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
         MaterialModel::Glass { ior, tint, absorption, priority } => {
             let spec =
                 Number::positive(0.002).within(1.0..=4.0).tip("Index of refraction: 1.33 for water, 1.5 for glass");
-            number_row(ui, "IOR", ior, &spec);
+            number_row(ui, "Index of refraction", ior, &spec);
             surface_color_ui(ui, "Tint", tint, scene);
             ui.label("Absorption").on_hover_text("Absorption coefficient, per scene unit inside the glass");
             ui.horizontal(|ui| color(ui, "Absorption", absorption, &Number::strength(0.01)));
@@ -124,7 +124,7 @@ fn relief_ui(ui: &mut Ui, relief: &mut Option<Relief>, scene: &Scene) {
         Some(Relief::Height { .. }) => "height map",
     };
     let kinds = ["none", "normal map", "height map"].map(|kind| (kind, kind));
-    if let Some(kind) = kind_row(ui, "Relief", current, &kinds) {
+    if let Some(kind) = kind_row(ui, "Bump or normal map", current, &kinds) {
         let map = match relief.take() {
             Some(Relief::Normal { map, .. } | Relief::Height { map, .. }) => map,
             None => TextureUse { texture: first.name.clone(), scale: DVec2::ONE },

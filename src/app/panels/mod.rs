@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `numbers` | numbers as text: short, grouped, as a duration, in percent |
 //! | `expression` | arithmetic in number fields |
+//! | `icons` | icons of the kinds of items |
 //! | `fields` | fields for names, numbers, vectors and colours |
 //! | `control_points` | the 4 x 4 control points of a patch |
 //! | `lights` | the properties of a light |
@@ -21,6 +22,7 @@ mod control_points;
 mod error_plot;
 mod expression;
 mod fields;
+mod icons;
 mod lights;
 mod materials;
 mod numbers;

@@ -1,8 +1,9 @@
 //! The list of all items in the scene.
 
+use super::icons::{self, Icon};
 use crate::app::commands::{Action, AppCommand, Purpose};
 use crate::app::document::{Document, Edit, Item, Selection, kinds, new_items};
-use egui::{Align, Button, CollapsingHeader, Layout, Ui, UiBuilder};
+use egui::{Align, Atom, Button, CollapsingHeader, IdSalt, Layout, Response, Ui, UiBuilder, Vec2};
 
 /// Spacing between rows, screen points: small, so that all sections fit in the panel.
 const SPACING: f32 = 1.0;
@@ -20,11 +21,19 @@ const LIGHTS: Section = Section { title: "Lights", open: true, item: Item::Light
 const MATERIALS: Section = Section { title: "Materials", open: false, item: Item::Material };
 const TEXTURES: Section = Section { title: "Textures", open: false, item: Item::Texture };
 
+/// What a row shows of an item.
+struct Label<'a> {
+    name: &'a str,
+    kind: &'static str,
+    icon: Icon,
+}
+
 /// The scene as a list; a click selects an item.
 pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     ui.spacing_mut().item_spacing.y = SPACING;
-    row_ui(ui, document, Item::Camera, "Camera", "", commands);
-    row_ui(ui, document, Item::Settings, "Picture and rendering", "", commands);
+    row_ui(ui, document, Item::Camera, &Label { name: "Camera", kind: "", icon: Icon::Camera }, commands);
+    let settings = Label { name: "Picture and rendering", kind: "", icon: Icon::Settings };
+    row_ui(ui, document, Item::Settings, &settings, commands);
     objects_ui(ui, document, commands);
     lights_ui(ui, document, commands);
     materials_ui(ui, document, commands);
@@ -33,7 +42,11 @@ pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<Ap
 
 fn objects_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
-    let objects = scene.objects.iter().map(|object| (object.name.as_str(), kinds::shape_kind(&object.shape)));
+    let objects = scene.objects.iter().map(|object| Label {
+        name: &object.name,
+        kind: kinds::shape_kind(&object.shape),
+        icon: Icon::of_shape(&object.shape),
+    });
     section_ui(ui, &OBJECTS, objects, document, commands, |ui, commands| {
         for (label, shape) in new_items::shapes() {
             if ui.button(label).clicked() {
@@ -48,7 +61,11 @@ fn objects_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) 
 
 fn lights_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
-    let lights = scene.lights.iter().map(|light| (light.name.as_str(), kinds::emitter_kind(&light.emitter)));
+    let lights = scene.lights.iter().map(|light| Label {
+        name: &light.name,
+        kind: kinds::emitter_kind(&light.emitter),
+        icon: Icon::of_emitter(&light.emitter),
+    });
     section_ui(ui, &LIGHTS, lights, document, commands, |ui, commands| {
         for (label, emitter) in new_items::emitters() {
             if ui.button(label).clicked() {
@@ -60,7 +77,11 @@ fn lights_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
 
 fn materials_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
-    let materials = scene.materials.iter().map(|material| (material.name.as_str(), kinds::model_kind(&material.model)));
+    let materials = scene.materials.iter().map(|material| Label {
+        name: &material.name,
+        kind: kinds::model_kind(&material.model),
+        icon: Icon::of_model(&material.model),
+    });
     section_ui(ui, &MATERIALS, materials, document, commands, |ui, commands| {
         for (label, model) in new_items::models() {
             if ui.button(label).clicked() {
@@ -71,8 +92,11 @@ fn materials_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>
 }
 
 fn textures_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
-    let textures =
-        document.scene().textures.iter().map(|texture| (texture.name.as_str(), kinds::encoding_kind(texture.encoding)));
+    let textures = document.scene().textures.iter().map(|texture| Label {
+        name: &texture.name,
+        kind: kinds::encoding_kind(texture.encoding),
+        icon: Icon::Texture,
+    });
     section_ui(ui, &TEXTURES, textures, document, commands, |ui, commands| {
         if ui.button("from a PNG or JPEG file…").clicked() {
             commands.push(AppCommand::AddFrom(Purpose::AddTexture));
@@ -84,7 +108,7 @@ fn textures_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>)
 fn section_ui<'a>(
     ui: &mut Ui,
     section: &Section,
-    entries: impl ExactSizeIterator<Item = (&'a str, &'static str)>,
+    entries: impl ExactSizeIterator<Item = Label<'a>>,
     document: &Document,
     commands: &mut Vec<AppCommand>,
     add_ui: impl FnOnce(&mut Ui, &mut Vec<AppCommand>),
@@ -92,8 +116,8 @@ fn section_ui<'a>(
     let header = format!("{} ({})", section.title, entries.len());
     let fold = CollapsingHeader::new(header).id_salt(section.title).default_open(section.open);
     let header = fold.show(ui, |ui| {
-        for (index, (name, kind)) in entries.enumerate() {
-            row_ui(ui, document, (section.item)(index), name, kind, commands);
+        for (index, label) in entries.enumerate() {
+            row_ui(ui, document, (section.item)(index), &label, commands);
         }
     });
     // The button stands at the right end of the header's row.
@@ -104,10 +128,8 @@ fn section_ui<'a>(
 }
 
 /// The row of an item: a click selects it, a right click opens its menu.
-fn row_ui(ui: &mut Ui, document: &Document, item: Item, name: &str, kind: &str, commands: &mut Vec<AppCommand>) {
-    let selected = document.selection.item == item;
-    let button = Button::selectable(selected, name).right_text(egui::RichText::new(kind).small()).truncate();
-    let response = ui.add_sized([ui.available_width(), ui.spacing().interact_size.y], button);
+fn row_ui(ui: &mut Ui, document: &Document, item: Item, label: &Label<'_>, commands: &mut Vec<AppCommand>) {
+    let response = label_ui(ui, document.selection.item == item, label);
     if response.clicked() || response.secondary_clicked() {
         commands.push(AppCommand::Select(Selection::of(item)));
     }
@@ -121,4 +143,17 @@ fn row_ui(ui: &mut Ui, document: &Document, item: Item, name: &str, kind: &str, 
             }
         });
     }
+}
+
+/// A button over the whole width with icon and name.
+fn label_ui(ui: &mut Ui, selected: bool, label: &Label<'_>) -> Response {
+    let icon = IdSalt::new("icon");
+    let height = ui.spacing().interact_size.y;
+    let button = Button::selectable(selected, (Atom::custom(icon, Vec2::splat(icons::SIZE)), label.name)).truncate();
+    let button = button.min_size(Vec2::new(ui.available_width(), height)).atom_ui(ui);
+    let color = ui.style().interact_selectable(&button.response, selected).text_color();
+    if let Some(square) = button.rect(icon) {
+        label.icon.paint(ui.painter(), square, color);
+    }
+    if label.kind.is_empty() { button.response } else { button.response.on_hover_text(label.kind) }
 }

@@ -23,12 +23,20 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
         ui.weak("No picture yet");
         return;
     };
-    counts_ui(ui, frame.iteration, &frame.stats);
-    target_ui(ui, rendering.target(), commands);
+    ui.strong("Progress");
+    rows(ui, "progress", |ui| {
+        error_rows(ui, &frame.stats);
+        target_row(ui, rendering.target(), commands);
+    });
     ui.add_space(4.0);
     error_plot_ui(ui, rendering.error_curve(), rendering.target());
-    CollapsingHeader::new("Time per iteration").default_open(true).show(ui, |ui| passes_ui(ui, &frame.stats));
     warnings_ui(ui, &frame.plan);
+    CollapsingHeader::new("Statistics").default_open(false).show(ui, |ui| {
+        counts_ui(ui, frame.iteration, &frame.stats);
+        ui.add_space(4.0);
+        ui.weak("Time per iteration");
+        passes_ui(ui, &frame.stats);
+    });
     CollapsingHeader::new("Plan").default_open(false).show(ui, |ui| plan_ui(ui, &frame.plan));
 }
 
@@ -44,47 +52,57 @@ fn display_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) 
     }
 }
 
+/// The estimated error, and what it may lack.
+fn error_rows(ui: &mut Ui, stats: &Stats) {
+    ui.label("Error");
+    ui.label(stats.error_estimate.map_or("unknown yet".to_owned(), percent))
+        .on_hover_text("Estimated root mean square error of the pixels, over the mean of the picture");
+    ui.end_row();
+    if let Some(missing) = stats.missing_light {
+        ui.label("Missing light");
+        ui.label(missing.to_string());
+        ui.end_row();
+    }
+}
+
 fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {
-    ui.strong("Progress");
     Grid::new("counts").num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
-        let mut row = |label: &str, value: String| {
-            ui.weak(label);
-            ui.label(value);
+        let mut row = |label: &str, value: String, tip: &str| {
+            ui.weak(label).on_hover_text(tip);
+            ui.label(value).on_hover_text(tip);
             ui.end_row();
         };
-        row("Iteration", if iteration == 0 { "draft".to_owned() } else { grouped(iteration) });
-        row("Time", duration(stats.seconds));
-        row("Photons", grouped(stats.photons_emitted));
-        row("Photons per second", short(stats.photons_per_second));
-        row("Rays", short(stats.rays as f64));
-        row("Gather radius", if stats.radius > 0.0 { format!("{:.5}", stats.radius) } else { "–".to_owned() });
-        row("Error estimate", stats.error_estimate.map_or("unknown yet".to_owned(), percent));
-        if let Some(missing) = stats.missing_light {
-            row("Missing light", missing.to_string());
-        }
+        let iterations = if iteration == 0 { "draft".to_owned() } else { grouped(iteration) };
+        row("Iterations", iterations, "Passes over the whole picture; their mean is shown");
+        row("Time", duration(stats.seconds), "Rendering time of the picture, without pauses");
+        row("Photons", grouped(stats.photons_emitted), "Photon paths that the lights have emitted");
+        row("Photons per second", short(stats.photons_per_second), "Photon paths over the rendering time");
+        row("Rays", short(stats.rays as f64), "Rays of camera and photon paths, and shadow rays");
+        let radius = if stats.radius > 0.0 { format!("{:.5}", stats.radius) } else { "–".to_owned() };
+        row("Gather radius", radius, "Mean radius of density estimates in the middle of the scene, scene units");
         if stats.dropped_samples > 0 {
-            row("Dropped samples", grouped(stats.dropped_samples));
+            let tip = "Samples left out of the picture, because they were not finite";
+            row("Dropped samples", grouped(stats.dropped_samples), tip);
         }
     });
 }
 
 /// The field of the target error, percent; 0 never stops.
-fn target_ui(ui: &mut Ui, target: Option<f64>, commands: &mut Vec<AppCommand>) {
+fn target_row(ui: &mut Ui, target: Option<f64>, commands: &mut Vec<AppCommand>) {
     let mut percent = 100.0 * target.unwrap_or(0.0);
-    ui.horizontal(|ui| {
-        let label = ui.weak("Target error");
-        let field = DragValue::new(&mut percent)
-            .range(0.0..=100.0)
-            .speed(0.01)
-            .max_decimals(3)
-            .update_while_editing(false)
-            .custom_formatter(|percent, _| target_text(percent))
-            .custom_parser(|text| expression::value_of(text.trim().trim_end_matches('%')));
-        let field = ui.add(field).labelled_by(label.id);
-        if field.on_hover_text("Rendering stops when the error is hardly above this; 0 never stops").changed() {
-            commands.push(AppCommand::Target((percent > 0.0).then_some(0.01 * percent)));
-        }
-    });
+    let label = ui.label("Stop at error");
+    let field = DragValue::new(&mut percent)
+        .range(0.0..=100.0)
+        .speed(0.01)
+        .max_decimals(3)
+        .update_while_editing(false)
+        .custom_formatter(|percent, _| target_text(percent))
+        .custom_parser(|text| expression::value_of(text.trim().trim_end_matches('%')));
+    let field = ui.add(field).labelled_by(label.id);
+    if field.on_hover_text("Rendering stops when the error is hardly above this; 0 never stops").changed() {
+        commands.push(AppCommand::Target((percent > 0.0).then_some(0.01 * percent)));
+    }
+    ui.end_row();
 }
 
 /// The mean time of each pass per iteration, and the time of preparing the scene.

@@ -57,6 +57,11 @@ impl Display {
         self.texture.as_ref()
     }
 
+    /// Whether the texture shows the newest requested image.
+    pub(crate) fn is_up_to_date(&self) -> bool {
+        !self.busy && self.waiting.is_none()
+    }
+
     /// Requests a texture of this image. While a job is busy, a newer request replaces a waiting one.
     pub(crate) fn show(&mut self, ctx: &Context, image: &Arc<LinearImage>, film: &crate::scene::Film) {
         let full_size = (image.width, image.height) == (film.width, film.height);

@@ -1,8 +1,10 @@
-//! Modal dialogs: unsaved changes, recovery, errors, paths, surface export, help.
+//! Modal dialogs: unsaved changes, recovery, errors, paths, surface export, help, the command palette.
 
+use super::palette::Palette;
 use super::primary::primary_ui;
 use super::recovery::recovery_ui;
 use crate::app::commands::{Action, Answer, AppCommand, Next};
+use crate::app::document::Document;
 use crate::app::files::PathField;
 use crate::app::keeping::LeftOverRow;
 use egui::{Context, DragValue, Grid, Id, Modal, ScrollArea, TextEdit, Ui};
@@ -26,20 +28,23 @@ pub(crate) enum Dialog {
     Surface(String, usize),
     /// Lists keys and mouse gestures.
     Help,
+    /// Finds commands by name.
+    Palette(Palette),
 }
 
-/// Shows a dialog over a document of this title.
-pub(crate) fn dialog_ui(ctx: &Context, dialog: &mut Dialog, document_title: &str, commands: &mut Vec<AppCommand>) {
+/// Shows a dialog over a document.
+pub(crate) fn dialog_ui(ctx: &Context, dialog: &mut Dialog, document: &Document, commands: &mut Vec<AppCommand>) {
     let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
         ui.set_max_width(560.0);
         match dialog {
-            Dialog::Unsaved(next) => unsaved_ui(ui, document_title, next, commands),
+            Dialog::Unsaved(next) => unsaved_ui(ui, &document.title(), next, commands),
             Dialog::ChangedOutside(path) => changed_ui(ui, path, commands),
             Dialog::Recovery(rows) => recovery_ui(ui, rows, commands),
             Dialog::Error(title, text) => error_ui(ui, title, text, commands),
             Dialog::Path(field) => field.ui(ui, commands),
             Dialog::Surface(name, steps) => surface_ui(ui, name, steps, commands),
             Dialog::Help => help_ui(ui, commands),
+            Dialog::Palette(palette) => palette.ui(ui, document.scene(), commands),
         }
     });
     if modal.should_close() {

@@ -34,7 +34,11 @@ pub(crate) fn menu_ui(
                 item_ui(ui, action, action.label(), true, commands);
             }
         });
-        ui.menu_button("Help", |ui| item_ui(ui, Action::Help, Action::Help.label(), true, commands));
+        ui.menu_button("Help", |ui| {
+            for action in [Action::Palette, Action::Help] {
+                item_ui(ui, action, action.label(), true, commands);
+            }
+        });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             buttons_ui(ui, paused, commands);
             navigate_ui(ui, visible.navigate, commands);

@@ -7,22 +7,28 @@
 //! | `status_bar` | engine status, counts, the pixel under the pointer, the zoom |
 //! | `history` | the list of undo steps |
 //! | `drop_hint` | what a file that is dragged over the window will do |
+//! | `first_hint` | the hint for a first start |
+//! | `palette` | the command palette: every action, item and example by its name |
 //! | `primary` | the first button of a dialog |
 //! | `recovery` | the dialog about unsaved changes of former windows |
-//! | `dialogs` | modal dialogs: unsaved changes, recovery, errors, paths, surface export, help |
+//! | `dialogs` | modal dialogs: unsaved changes, recovery, errors, paths, surface export, help, the palette |
 
 mod dialogs;
 mod drop_hint;
+mod first_hint;
 mod history;
 mod menu;
 mod notices;
+mod palette;
 mod primary;
 mod recovery;
 mod status_bar;
 
 pub(crate) use dialogs::{Dialog, dialog_ui};
 pub(crate) use drop_hint::{drop_hint, drop_hint_ui};
+pub(crate) use first_hint::first_hint_ui;
 pub(crate) use history::history_ui;
 pub(crate) use menu::{Visibility, menu_ui};
 pub(crate) use notices::notices_ui;
+pub(crate) use palette::Palette;
 pub(crate) use status_bar::status_bar_ui;

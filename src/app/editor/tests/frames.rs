@@ -7,6 +7,8 @@ fn a_frame_becomes_the_texture_and_fills_the_panels() {
     receive(&mut ui, frame(1, false, 16));
     wait_until(&mut ui, "the texture", |ui| ui.state().display.texture().is_some());
     assert_eq!(ui.state().display.texture().unwrap().size(), [16, 16]);
+    ui.get_by_label("Statistics").click();
+    ui.run_steps(20);
     for text in ["120 000", "80.00 k", "5.00 %", "200.0 ms"] {
         assert!(ui.query_by_label(text).is_some(), "{text} is not shown");
     }
@@ -81,7 +83,7 @@ fn the_target_error_is_set_in_the_panel() {
     ui.state_mut().rendering.receive(Some(frame(1, false, 8)), Status::Rendering);
     ui.run_steps(2);
     ui.state_mut().rendering.take_commands();
-    let field = |ui: &Ui| ui.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Target error").rect().center();
+    let field = |ui: &Ui| ui.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Stop at error").rect().center();
     let at = field(&ui);
     ui.drag_at(at);
     ui.run_steps(2);

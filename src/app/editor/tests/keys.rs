@@ -55,6 +55,55 @@ fn a_focused_text_field_blocks_shortcuts() {
     assert!(commands(&mut ui).is_empty(), "nothing was paused or restarted");
 }
 
+/// Opens the palette, types, and presses Enter.
+fn run_from_palette(ui: &mut Ui, text: &str) {
+    press(ui, Key::P);
+    focused(ui).type_text(text);
+    ui.run_steps(2);
+    ui.key_press(Key::Enter);
+    ui.run_steps(3);
+}
+
+#[test]
+fn the_palette_runs_what_it_finds() {
+    let mut ui = open("cornell");
+    run_from_palette(&mut ui, "sphere add");
+    assert!(ui.state().dialog.is_none(), "the palette is closed");
+    assert!(matches!(scene(&ui).objects.last().unwrap().shape, Shape::Sphere { .. }));
+    run_from_palette(&mut ui, "undo");
+    assert!(!matches!(scene(&ui).objects.last().unwrap().shape, Shape::Sphere { .. }));
+    run_from_palette(&mut ui, "keys and mouse");
+    assert_eq!(ui.state().dialog, Some(Dialog::Help), "a command may open another dialog");
+    ui.key_press(Key::Escape);
+    ui.run_steps(3);
+    run_from_palette(&mut ui, "select cei");
+    let ceiling = scene(&ui).objects.iter().position(|object| object.name == "ceiling").unwrap();
+    assert_eq!(ui.state().document.selection.item, Item::Object(ceiling));
+    press(&mut ui, Key::P);
+    focused(&ui).type_text("add");
+    ui.run_steps(2);
+    ui.key_press(Key::ArrowDown);
+    ui.run_steps(2);
+    ui.key_press(Key::Enter);
+    ui.run_steps(3);
+    assert!(
+        matches!(scene(&ui).objects.last().unwrap().shape, Shape::Sphere { .. }),
+        "the second one: after the patch"
+    );
+}
+
+#[test]
+fn the_hint_goes_with_the_first_edit_or_when_closed() {
+    let hint = "Drag a dot of the surface, and watch its light.";
+    let mut ui = open("cornell");
+    assert!(ui.query_by_label(hint).is_some());
+    edit(&mut ui);
+    assert!(ui.query_by_label(hint).is_none());
+    let mut ui = open("cornell");
+    click(&mut ui, "Close the hint");
+    assert!(ui.query_by_label(hint).is_none());
+}
+
 #[test]
 fn f1_lists_the_keys() {
     let mut ui = open("cornell");

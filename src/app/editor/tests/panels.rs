@@ -85,7 +85,7 @@ fn the_kind_of_a_material_is_chosen_from_a_list() {
     ui.get_by_role_and_label(Role::Button, "glass").click();
     ui.run_steps(3);
     assert!(matches!(scene(&ui).materials[0].model, MaterialModel::Glass { .. }), "{:?}", scene(&ui).materials[0]);
-    type_number(&mut ui, "IOR", "1.33");
+    type_number(&mut ui, "Index of refraction", "1.33");
     assert!(
         matches!(scene(&ui).materials[0].model, MaterialModel::Glass { ior: 1.33, .. }),
         "the fields of glass edit the material"
