@@ -1,6 +1,7 @@
 //! Reading files up to a limit, and writing files whole or not at all.
 
 use std::{
+    borrow::Cow,
     fs::{self, File},
     io::{self, Read, Write},
     path::{Path, PathBuf},
@@ -14,13 +15,15 @@ use tempfile::Builder;
 ///
 /// If the file cannot be read, has more than `limit` bytes, or is a folder, a pipe or a device, which may have no end.
 pub fn read_limited(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    let too_long = || io::Error::other(format!("it has more than {} MB, the most that is read", limit >> 20));
+    let file = open(path)?;
+    if file.metadata()?.len() > limit {
+        return Err(too_long());
+    }
     let mut bytes = Vec::new();
     // A file may grow, and some files of the system state a size of 0.
-    open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > limit {
-        return Err(io::Error::other(format!("it has more than {} MB, the most that is read", limit >> 20)));
-    }
-    Ok(bytes)
+    file.take(limit + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit { Err(too_long()) } else { Ok(bytes) }
 }
 
 /// A file to be read.
@@ -47,8 +50,20 @@ pub fn read_text_limited(path: &Path, limit: u64) -> io::Result<String> {
     String::from_utf8(read_limited(path, limit)?).map_err(|e| io::Error::other(e.utf8_error()))
 }
 
-/// How the names of temporary files begin.
-const TEMPORARY: &str = ".patchlight-";
+/// A text that fits some lines of a terminal: the beginning and the end of a longer one. A file may have millions of letters where a
+/// message quotes it.
+pub fn shortened(text: &str) -> Cow<'_, str> {
+    /// Bytes of each end.
+    const END: usize = 300;
+    if text.len() <= 2 * END {
+        return Cow::Borrowed(text);
+    }
+    let (start, end) = (text.floor_char_boundary(END), text.ceil_char_boundary(text.len() - END));
+    Cow::Owned(format!("{} ... {}", &text[..start], &text[end..]))
+}
+
+/// How the names of temporary files begin and end, with letters and digits between.
+const TEMPORARY: [&str; 2] = [".patchlight-", ".tmp"];
 /// Age of a temporary file at which the process that made it surely holds its lock.
 const TIME_TO_LOCK: Duration = Duration::from_secs(1);
 
@@ -67,7 +82,8 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = folder(&target);
     remove_left_over(&folder);
     // With a creator of our own, because the default one puts the temporary name into errors.
-    let temporary = Builder::new().prefix(TEMPORARY).make_in(folder, |path| File::create_new(path))?;
+    let [prefix, suffix] = TEMPORARY;
+    let temporary = Builder::new().prefix(prefix).suffix(suffix).make_in(folder, |path| File::create_new(path))?;
     // Where the file system has no locks, other processes cannot take the lock either and leave the file alone.
     temporary.as_file().try_lock().ok();
     temporary.as_file().write_all(bytes)?;
@@ -79,9 +95,8 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// The file that a symbolic link leads to, whether it exists or not; a path that is no link leads to itself. A file that is renamed to
-/// the target keeps the link.
-fn link_target(path: &Path) -> PathBuf {
+/// The file that writing to a path changes: the one that symbolic links lead to, whether it exists or not.
+pub fn link_target(path: &Path) -> PathBuf {
     // As many links in a row as Linux follows.
     const MOST_LINKS: usize = 40;
     let next = |path: &PathBuf| fs::read_link(path).ok().map(|link| folder(path).join(link));
@@ -92,8 +107,7 @@ fn link_target(path: &Path) -> PathBuf {
 /// file.
 fn remove_left_over(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
-    let names_temporary = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().starts_with(TEMPORARY);
-    for entry in entries.flatten().filter(names_temporary) {
+    for entry in entries.flatten().filter(is_temporary) {
         let age = entry.metadata().and_then(|m| m.modified()).ok().and_then(|at| at.elapsed().ok());
         let is_old = age.is_some_and(|age| age > TIME_TO_LOCK);
         if is_old && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok()) {
@@ -101,6 +115,14 @@ fn remove_left_over(folder: &Path) {
             fs::remove_file(entry.path()).ok();
         }
     }
+}
+
+/// Whether a file has the name of a temporary one. Links and pipes are none, and would lead elsewhere or wait for ever.
+fn is_temporary(entry: &fs::DirEntry) -> bool {
+    let (name, [prefix, suffix]) = (entry.file_name(), TEMPORARY);
+    let random = name.to_str().and_then(|name| name.strip_prefix(prefix)?.strip_suffix(suffix));
+    random.is_some_and(|random| !random.is_empty() && random.chars().all(|c| c.is_ascii_alphanumeric()))
+        && entry.file_type().is_ok_and(|kind| kind.is_file())
 }
 
 /// The folder of the file at `path`.
@@ -135,13 +157,29 @@ mod tests {
             file.set_modified(std::time::SystemTime::now() - Duration::from_secs(age)).unwrap();
             (path, file)
         };
-        let (left_over, _) = make(".patchlight-dead", 9);
-        let (in_use, holder) = make(".patchlight-alive", 9);
+        let (left_over, _) = make(".patchlight-dead.tmp", 9);
+        let (in_use, holder) = make(".patchlight-alive.tmp", 9);
         holder.lock().unwrap();
-        let (new, _) = make(".patchlight-new", 0);
-        let (other, _) = make("patchlight-picture", 9);
+        let (new, _) = make(".patchlight-new.tmp", 0);
+        let others = ["patchlight-a.tmp", ".patchlight-mine.toml", ".patchlight-my notes.tmp", ".patchlight-.tmp"];
+        let others = others.map(|name| make(name, 9).0);
+        let folder = dir.path().join(".patchlight-folder.tmp");
+        fs::create_dir(&folder).unwrap();
         write_whole(&dir.path().join("a"), b"a").unwrap();
-        assert!(!left_over.exists() && in_use.exists() && new.exists() && other.exists());
+        assert!(!left_over.exists() && in_use.exists() && new.exists() && folder.exists());
+        assert!(others.iter().all(|other| other.exists()), "files of the user stay");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_or_a_link_with_the_name_of_a_temporary_file_is_left_alone() {
+        let dir = tempfile::tempdir().unwrap();
+        let (pipe, link) = (dir.path().join(".patchlight-pipe.tmp"), dir.path().join(".patchlight-link.tmp"));
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        std::os::unix::fs::symlink("a", &link).unwrap();
+        std::thread::sleep(TIME_TO_LOCK + Duration::from_millis(50));
+        write_whole(&dir.path().join("a"), b"a").unwrap();
+        assert!(pipe.exists() && fs::symlink_metadata(&link).is_ok());
     }
 
     #[test]

@@ -75,12 +75,14 @@ impl<'a> Checkpoints<'a> {
         }
     }
 
-    /// Writes the checkpoint, if the command line names one.
-    pub(super) fn save(&self, session: &Session) -> Result<(), CheckpointError> {
-        match (&self.arguments.checkpoint, &self.run) {
-            (Some(path), Some(run)) => Checkpoint::write(path, run, session.part()),
-            _ => Ok(()),
+    /// Writes the checkpoint, if the command line names one. Returns its path; `None` without one, and for a rendering without any
+    /// iteration, which leaves a previous file as it is.
+    pub(super) fn save(&self, session: &Session) -> Result<Option<&'a Path>, CheckpointError> {
+        let Some((path, run)) = self.arguments.checkpoint.as_deref().zip(self.run.as_ref()) else { return Ok(None) };
+        if session.part().rendered() == 0 {
+            return Ok(None);
         }
+        Checkpoint::write(path, run, session.part()).map(|()| Some(path))
     }
 
     /// Fails if a file that is `written` is one that is read, and would be lost.

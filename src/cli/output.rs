@@ -1,7 +1,7 @@
 //! The output files of the commands.
 
 use super::CliError;
-use crate::file::{folder, write_whole};
+use crate::file::{folder, link_target, write_whole};
 use crate::scene::SceneFile;
 use std::path::Path;
 
@@ -53,8 +53,9 @@ pub(super) fn must_spare_files_of(scene: &SceneFile, written: &Path) -> Result<(
 /// Whether two paths lead to one file, which need not exist.
 fn is_same_file(a: &Path, b: &Path) -> bool {
     let resolved = |path: &Path| {
+        let path = link_target(path);
         path.canonicalize()
-            .or_else(|_| folder(path).canonicalize().map(|at| at.join(path.file_name().unwrap_or_default())))
+            .or_else(|_| folder(&path).canonicalize().map(|at| at.join(path.file_name().unwrap_or_default())))
     };
     matches!((resolved(a), resolved(b)), (Ok(a), Ok(b)) if a == b)
 }

@@ -24,8 +24,8 @@ use std::{
 };
 
 /// The longest wait for the first iteration after a signal, without which there is no picture. Job schedulers kill a program half a minute
-/// after the signal.
-const WAIT_FOR_PICTURE: Duration = Duration::from_secs(5);
+/// after the signal, and large files take some seconds to be written.
+const WAIT_FOR_PICTURE: Duration = Duration::from_secs(10);
 
 /// `patchlight render`: renders a picture and writes it.
 pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
@@ -50,12 +50,12 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
         let statistics = Statistics::new(&frame.stats, size).of_rendering(work, &frame.plan);
         write(path, statistics.json()?.as_bytes())?;
     }
-    saved?;
+    let saved = saved?;
     let checkpoint = arguments.checkpoints.checkpoint.as_deref();
     let output = arguments.output.as_deref().or(checkpoint).unwrap_or(&arguments.scene).display();
     match interrupt.signal() {
         Some((signal, code)) => {
-            let go_on = checkpoint.map_or(String::new(), |path| format!("; go on with --resume {}", path.display()));
+            let go_on = saved.map_or(String::new(), |path| format!("; go on with --resume {}", path.display()));
             let ended = match frame.iteration {
                 0 => format!("no picture, {signal} came before the end of an iteration"),
                 n => format!("{}, ended early by {signal}", counted(n, "iteration")),
@@ -88,21 +88,21 @@ fn files_written(arguments: &RenderArguments) -> impl Iterator<Item = (&Path, &'
 }
 
 /// The result of a rendering.
-struct Rendered {
+struct Rendered<'a> {
     frame: Frame,
     cpu_seconds: f64,
-    /// Whether the checkpoint was written.
-    saved: Result<(), CheckpointError>,
+    /// The checkpoint, if one was written.
+    saved: Result<Option<&'a Path>, CheckpointError>,
 }
 
 /// The picture when the budget is spent, or after a signal. The picture is black if a signal ended the first iteration, or the iterations
 /// before it, which are only measured.
-fn render_frame(
+fn render_frame<'a>(
     file: &SceneFile,
     arguments: &RenderArguments,
-    checkpoints: &mut Checkpoints,
+    checkpoints: &mut Checkpoints<'a>,
     interrupt: &Interrupt,
-) -> Result<Rendered, CliError> {
+) -> Result<Rendered<'a>, CliError> {
     let RenderSettings { seed, only, .. } = arguments.settings;
     let session = Session::prepare(file, seed, None)?.only(only.map(Component::from));
     let mut session = checkpoints.begin(session)?;

@@ -1,5 +1,5 @@
 use super::CliError;
-use crate::engine::{Counters, PassSeconds, PathEnergy, PlanNote, PlanSummary, Stats};
+use crate::engine::{Counters, PassSeconds, PathEnergy, PlanNote, PlanSummary, Stats, WorstBalance};
 use serde::Serialize;
 
 /// The statistics of a rendering, as `--stats` writes them.
@@ -37,7 +37,6 @@ pub(super) struct Work {
 struct EnergyBalances {
     caustics: EnergyBalance,
     interreflection: EnergyBalance,
-    worst_balance: f64,
 }
 
 #[derive(Serialize)]
@@ -46,11 +45,19 @@ struct EnergyBalance {
     entries: PathEnergy,
     path_balance: f64,
     photon_balance: f64,
+    worst_balance: f64,
+    worst_iteration: u64,
 }
 
-impl From<PathEnergy> for EnergyBalance {
-    fn from(entries: PathEnergy) -> Self {
-        Self { entries, path_balance: entries.path_balance(), photon_balance: entries.photon_balance() }
+impl EnergyBalance {
+    fn new(entries: PathEnergy, worst: WorstBalance) -> Self {
+        Self {
+            entries,
+            path_balance: entries.path_balance(),
+            photon_balance: entries.photon_balance(),
+            worst_balance: worst.balance,
+            worst_iteration: worst.iteration,
+        }
     }
 }
 
@@ -84,9 +91,11 @@ impl<'a> Statistics<'a> {
             pass_seconds: stats.passes,
             counters: stats.counters,
             energy: EnergyBalances {
-                caustics: stats.energy.caustics.into(),
-                interreflection: stats.energy.interreflection.into(),
-                worst_balance: stats.energy.worst_balance,
+                caustics: EnergyBalance::new(stats.energy.caustics, stats.energy.worst_of_caustics),
+                interreflection: EnergyBalance::new(
+                    stats.energy.interreflection,
+                    stats.energy.worst_of_interreflection,
+                ),
             },
             plan: None,
         }

@@ -22,7 +22,7 @@ pub fn iterate<T>(input: &PassInput, meter: &PassMeter, commit: impl FnOnce(&Con
         Some(Band::new(input, &rows, seen, &gathered.points))
     };
     let bands: Vec<Band> = plan.bands(input.iteration).into_par_iter().map(band).collect::<Option<_>>()?;
-    let energy = Energy::of_iteration(caustic.energy, global.energy);
+    let energy = Energy::of_iteration(input.iteration, caustic.energy, global.energy);
     let contribution =
         meter.time(Pass::Gather, || Contribution::new(&bands, &caustic.splats, plan.camera.width, energy));
     Some(meter.time(Pass::Commit, || commit(&contribution)))

@@ -48,4 +48,4 @@ pub use pass_meter::PassMeter;
 pub use run::Run;
 pub use session::{BLACK_ITERATIONS, Session, SessionError};
 
-pub use crate::transport::{Counters, Energy, PathEnergy, PlanItem, PlanNote};
+pub use crate::transport::{Counters, Energy, PathEnergy, PlanItem, PlanNote, WorstBalance};

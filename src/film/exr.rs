@@ -4,7 +4,7 @@ use crate::{
     math::Rgb,
     scene::Film,
 };
-use exr::meta::MetaData;
+use exr::meta::{MetaData, attribute::LineOrder};
 use exr::prelude::{
     Encoding, Image, Layer, LayerAttributes, ReadChannels, ReadLayers, ReadSpecificChannel, SpecificChannels,
     WritableImage, read,
@@ -31,7 +31,9 @@ pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), ImageError> {
         (pixel.x, pixel.y, pixel.z)
     });
     let size = (width, image.height as usize);
-    let layer = Layer::new(size, LayerAttributes::named("radiance"), Encoding::SMALL_FAST_LOSSLESS, channels);
+    // Otherwise blocks stand in the order in which threads pack them, and equal pictures are different files.
+    let encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::SMALL_FAST_LOSSLESS };
+    let layer = Layer::new(size, LayerAttributes::named("radiance"), encoding, channels);
     let mut bytes = Cursor::new(Vec::new());
     Image::from_layer(layer).write().to_buffered(&mut bytes).map_err(|e| failed(io::Error::other(e)))?;
     write_whole(path, bytes.get_ref()).map_err(failed)
@@ -110,6 +112,20 @@ mod tests {
         let path = dir.path().join("a.exr");
         write_exr(&path, &image()).unwrap();
         assert_eq!(read_exr(&path).unwrap(), image());
+    }
+
+    #[test]
+    fn equal_pictures_are_equal_files() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.exr");
+        let pixels = (0..600 * 400).map(|k| Rgb::splat((k * k % 1009) as f32)).collect();
+        let image = LinearImage { width: 600, height: 400, pixels };
+        let file = || {
+            write_exr(&path, &image).unwrap();
+            fs::read(&path).unwrap()
+        };
+        let first = file();
+        assert!((0..20).all(|_| file() == first));
     }
 
     #[test]

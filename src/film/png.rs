@@ -1,7 +1,11 @@
 use super::{ImageError, LinearImage, ToneMap};
 use crate::file::{read_limited, write_whole};
-use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
-use std::{io, path::Path};
+use crate::scene::Film;
+use image::{ColorType, ImageEncoder, ImageReader, codecs::png::PngEncoder};
+use std::{
+    io::{self, Cursor},
+    path::Path,
+};
 
 /// Most bytes of a mask: more than the largest picture of the program takes without compression.
 const MAX_MASK_BYTES: u64 = 1 << 30;
@@ -41,7 +45,17 @@ impl Mask {
         let bytes =
             read_limited(path, MAX_MASK_BYTES).map_err(|source| ImageError::Read { file: path.to_owned(), source })?;
         let wrong = |message| ImageError::Content { file: path.to_owned(), message };
-        let image = image::load_from_memory(&bytes).map_err(|e| wrong(e.to_string()))?.into_luma8();
+        let damaged = |e: image::ImageError| wrong(e.to_string().trim().to_owned());
+        let reader = || ImageReader::new(Cursor::new(&bytes)).with_guessed_format().map_err(|e| damaged(e.into()));
+        let (width, height) = reader()?.into_dimensions().map_err(damaged)?;
+        if width.max(height) > Film::MOST_PIXELS {
+            let most = Film::MOST_PIXELS;
+            return Err(wrong(format!("has {width} x {height} pixels, expected at most {most} x {most}")));
+        }
+        let mut reader = reader()?;
+        // The decoder's own limit is below the largest film.
+        reader.no_limits();
+        let image = reader.decode().map_err(damaged)?.into_luma8();
         let inside: Vec<_> = image.iter().map(|luma| *luma > 127).collect();
         for (side, brightness) in [(true, "bright"), (false, "dark")] {
             if !inside.contains(&side) {

@@ -1,6 +1,6 @@
 use super::built_in::embedded;
 use crate::{
-    file::{folder, read_limited},
+    file::{folder, read_limited, shortened},
     geometry::bezier::{ControlNet, read_bpt},
 };
 use image::{DynamicImage, ImageDecoder, ImageError, ImageReader};
@@ -51,7 +51,7 @@ impl Location {
     pub fn read_patches(&self, relative: &str) -> Result<Vec<ControlNet>, String> {
         let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
         let text = str::from_utf8(&bytes).map_err(|e| format!("\"{relative}\" is not UTF-8 text: {e}"))?;
-        read_bpt(text).map_err(|e| format!("\"{relative}\": {e}"))
+        read_bpt(text).map_err(|e| format!("\"{relative}\": {}", shortened(&e.to_string())))
     }
 
     /// The decoded PNG or JPEG file that the scene names, upright by the orientation that its EXIF data states.
@@ -131,7 +131,7 @@ fn reader(bytes: &[u8]) -> io::Result<ImageReader<Cursor<&[u8]>>> {
 }
 
 fn damaged(relative: &str, error: &ImageError) -> String {
-    format!("\"{relative}\" is not a valid PNG or JPEG image: {error}")
+    format!("\"{relative}\" is not a valid PNG or JPEG image: {}", error.to_string().trim())
 }
 
 /// Checks the number of pixels by the header of a PNG or JPEG file.

@@ -1,4 +1,4 @@
-use std::borrow::Cow;
+use crate::file::shortened;
 use std::fmt;
 
 /// An error in a scene.
@@ -15,17 +15,6 @@ impl fmt::Display for Problem {
         let (path, message) = (shortened(&self.path), shortened(&self.message));
         if path.is_empty() { f.write_str(&message) } else { write!(f, "{path}: {message}") }
     }
-}
-
-/// A text that fits some lines of a terminal: the beginning and the end of a longer one.
-fn shortened(text: &str) -> Cow<'_, str> {
-    /// Bytes of each end.
-    const END: usize = 300;
-    if text.len() <= 2 * END {
-        return Cow::Borrowed(text);
-    }
-    let (start, end) = (text.floor_char_boundary(END), text.ceil_char_boundary(text.len() - END));
-    Cow::Owned(format!("{} ... {}", &text[..start], &text[end..]))
 }
 
 /// Most letters of a name for which another one is suggested: the distance of two names takes the product of their lengths.

@@ -14,16 +14,40 @@ pub struct Energy {
     pub caustics: PathEnergy,
     /// Paths of the photon pass of interreflection.
     pub interreflection: PathEnergy,
-    /// The greatest absolute value of the balances of any single iteration.
-    pub worst_balance: f64,
+    /// The iteration with the worst balance of the caustic photon pass.
+    pub worst_of_caustics: WorstBalance,
+    /// The iteration with the worst balance of the photon pass of interreflection.
+    pub worst_of_interreflection: WorstBalance,
+}
+
+/// The worst balance of a component in any single iteration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WorstBalance {
+    /// The greatest absolute value of the component's balances.
+    pub balance: f64,
+    /// The number of its iteration in the run; 0 before the first.
+    pub iteration: u64,
+}
+
+impl WorstBalance {
+    fn of_iteration(iteration: u64, energy: &PathEnergy) -> Self {
+        Self { balance: energy.path_balance().abs().max(energy.photon_balance().abs()), iteration }
+    }
+
+    fn worse(self, other: Self) -> Self {
+        if other.balance > self.balance || self.iteration == 0 { other } else { self }
+    }
 }
 
 impl Energy {
-    /// The energy of one iteration.
-    pub(crate) fn of_iteration(caustics: PathEnergy, interreflection: PathEnergy) -> Self {
-        let balances = [caustics, interreflection].map(|energy| [energy.path_balance(), energy.photon_balance()]);
-        let worst_balance = balances.as_flattened().iter().fold(0.0, |worst: f64, balance| worst.max(balance.abs()));
-        Self { caustics, interreflection, worst_balance }
+    /// The energy of the iteration with this number in the run.
+    pub(crate) fn of_iteration(iteration: u64, caustics: PathEnergy, interreflection: PathEnergy) -> Self {
+        Self {
+            caustics,
+            interreflection,
+            worst_of_caustics: WorstBalance::of_iteration(iteration, &caustics),
+            worst_of_interreflection: WorstBalance::of_iteration(iteration, &interreflection),
+        }
     }
 }
 
@@ -157,7 +181,8 @@ impl AddAssign for PathEnergy {
 
 impl AddAssign for Energy {
     fn add_assign(&mut self, other: Self) {
-        self.worst_balance = self.worst_balance.max(other.worst_balance);
+        self.worst_of_caustics = self.worst_of_caustics.worse(other.worst_of_caustics);
+        self.worst_of_interreflection = self.worst_of_interreflection.worse(other.worst_of_interreflection);
         self.caustics += other.caustics;
         self.interreflection += other.interreflection;
     }

@@ -41,7 +41,7 @@ mod testing;
 
 pub use counters::{Counted, Counters};
 pub use density::{Bandwidth, BandwidthDifference, FilmStatistics, PixelSamples};
-pub use energy::{Energy, PathEnergy};
+pub use energy::{Energy, PathEnergy, WorstBalance};
 pub use lights::{LightSampler, PhotonEmission, ProjectionMap};
 pub use pass::{Cancel, Rows};
 pub use passes::{

@@ -106,7 +106,11 @@ fn renders_png_exr_and_statistics() {
             assert!(balance.is_some_and(|lost| lost.abs() < 1e-6), "{component}: {stats}");
         }
     }
-    assert!(stats["energy"]["worst_balance"].as_f64().is_some_and(|lost| lost < 1e-6), "{stats}");
+    for component in ["caustics", "interreflection"] {
+        let balance = &stats["energy"][component];
+        assert!(balance["worst_balance"].as_f64().is_some_and(|lost| lost < 1e-6), "{stats}");
+        assert!(balance["worst_iteration"].as_u64().is_some_and(|iteration| iteration > 0), "{stats}");
+    }
     assert!(stats["plan"].as_array().is_some_and(|plan| !plan.is_empty()), "{stats}");
 }
 
@@ -180,6 +184,12 @@ fn a_file_of_control_points_is_shown_as_a_scene() {
     assert!((0.3..0.8).contains(&middle), "{middle}");
     fs::write(dir.path().join("sheet.bpt"), "1\n3 3\n0 0").unwrap();
     fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt: line 3: the file ends"]);
+    fs::write(dir.path().join("sheet.bpt"), format!("1\n3 3\n{}", "0 0 0\n".repeat(16))).unwrap();
+    fails(&patchlight(dir.path(), &["check", "sheet.bpt"]), 2, &["sheet.bpt", "all control points are the same point"]);
+    fs::write(dir.path().join("sheet.bpt"), "7".repeat(1_000_000)).unwrap();
+    let long = patchlight(dir.path(), &["check", "sheet.bpt"]);
+    fails(&long, 2, &["sheet.bpt: line 1"]);
+    assert!(stderr(&long).len() < 2000, "the number is not printed whole");
     fs::write(dir.path().join("sheet.bpt"), "0\n").unwrap();
     assert!(patchlight(dir.path(), &["check", "sheet.bpt"]).status.success(), "no patch is no error");
 }
@@ -195,6 +205,13 @@ fn no_output_overwrites_the_scene_or_another_output() {
     fails(&render("ball.toml", &["-o", "a.png", "--stats", "ball.toml"]), 2, &["ball.toml: is the scene"]);
     fails(&render("ball.toml", &["-o", "a.png", "--stats", "./a.png"]), 2, &["both the picture and the statistics"]);
     assert_eq!(fs::read_to_string(dir.path().join("scene.png")).unwrap(), SCENE, "the scene is still there");
+    #[cfg(unix)]
+    {
+        // A link to a file that the same command writes, and that does not exist yet.
+        std::os::unix::fs::symlink("later.exr", dir.path().join("link.json")).unwrap();
+        let both = render("ball.toml", &["-o", "later.exr", "--stats", "link.json"]);
+        fails(&both, 2, &["both the picture and the statistics"]);
+    }
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! The energy balance of the photon passes: emitted flux is absorbed, escapes, is cut off or is left to the camera.
 
 use crate::support::{HEAD, lamp, quad, sphere, world};
-use patchlight::scene::SceneFile;
-use patchlight::transport::{Energy, PassInput, PathEnergy, Plan, caustic_photon_pass, global_photon_pass};
+use patchlight::engine::Session;
+use patchlight::scene::{SceneFile, built_in_scenes};
+use patchlight::transport::{Cancel, Energy, PassInput, PathEnergy, Plan, caustic_photon_pass, global_photon_pass};
 use patchlight::world::{World, prepare};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ fn energies(world: &World, iterations: u64) -> Vec<Energy> {
         let input = PassInput::uncancelled(world, &plan, 1, iteration);
         let caustics = caustic_photon_pass(&input).expect("never cancelled").energy;
         let interreflection = global_photon_pass(&input).expect("never cancelled").energy;
-        Energy { caustics, interreflection, worst_balance: 0.0 }
+        Energy { caustics, interreflection, ..Energy::default() }
     };
     (1..=iterations).map(of).collect()
 }
@@ -59,6 +60,26 @@ fn every_scene_is_balanced() {
         (file.scene.film.width, file.scene.film.height) = (32, 32);
         let world = prepare(&file.scene, &file.location, None).expect("the scene can be prepared");
         assert_each_balanced(&world, 0.02, &path.display().to_string());
+    }
+}
+
+/// Nine iterations, of which the last ones have plans that measurements refined twice.
+#[test]
+fn refined_plans_are_balanced() {
+    let suite = scenes(&Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/suite"));
+    assert!(suite.len() > 10, "{suite:?}");
+    let built_in = built_in_scenes().iter().map(|scene| SceneFile::built_in(scene.name).expect("a built-in scene"));
+    for mut file in built_in.chain(suite.iter().map(|path| SceneFile::open(path).expect("a valid scene"))) {
+        (file.scene.film.width, file.scene.film.height) = (24, 24);
+        let mut session = Session::prepare(&file, 1, None).expect("the scene can be prepared");
+        for _ in 0..9 {
+            session.advance(Cancel::NEVER).expect("never cancelled");
+        }
+        let Energy { worst_of_caustics, worst_of_interreflection, .. } = session.stats().energy;
+        for worst in [worst_of_caustics, worst_of_interreflection] {
+            assert!(worst.balance < TOLERANCE, "{}: {worst:?}", file.location.label());
+            assert!((1..=9).contains(&worst.iteration), "{}: {worst:?}", file.location.label());
+        }
     }
 }
 

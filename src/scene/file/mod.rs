@@ -4,7 +4,7 @@ use super::{
     LocatedProblem, Location, Problem, Scene, SceneError, Shape, built_in::embedded, built_in_scenes, load,
     location::relative_to, problem::suggestion, save, surface_scene::scene_of_patches, validate,
 };
-use crate::file::{folder, read_limited, write_whole};
+use crate::file::{folder, read_limited, shortened, write_whole};
 use crate::geometry::bezier::read_bpt;
 use std::{
     fs, io,
@@ -43,7 +43,11 @@ impl SceneFile {
     fn of_patches(path: &Path, bytes: &[u8]) -> Result<Self, SceneError> {
         let failed = |problem: String| SceneError::Patches { file: path.to_owned(), problem };
         let text = str::from_utf8(bytes).map_err(|e| failed(format!("is not UTF-8 text: {e}")))?;
-        let nets = read_bpt(text).map_err(|e| failed(e.to_string()))?;
+        let nets = read_bpt(text).map_err(|e| failed(shortened(&e.to_string()).into_owned()))?;
+        let mut points = nets.iter().flat_map(|net| net.points.iter().flatten());
+        if points.next().is_some_and(|first| points.all(|point| point == first)) {
+            return Err(failed("all control points are the same point, so there is no surface to show".to_owned()));
+        }
         let absolute = std::path::absolute(path).map_err(|e| failed(e.to_string()))?;
         let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let scene = scene_of_patches(&name, nets, absolute.display().to_string());

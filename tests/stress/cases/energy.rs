@@ -9,7 +9,7 @@ use patchlight::world::{World, prepare};
 const ITERATIONS: u64 = 2;
 
 pub(crate) fn cases() -> Vec<Case> {
-    let scenes = ["report", "water", "cardioid", "lens", "teapot", "cornell"];
+    let scenes = ["report", "report-flipped", "water", "cardioid", "lens", "teapot", "cornell"];
     scenes.into_iter().map(balances).collect()
 }
 

@@ -7,7 +7,7 @@ use patchlight::transport::{PassInput, PixelSamples, Plan};
 use std::f64::consts::PI;
 
 pub(crate) fn cases() -> Vec<Case> {
-    late_iterations().into_iter().chain([long_sum(), merged_parts()]).collect()
+    late_iterations().into_iter().chain([long_sum(), sum_after_a_jump(), merged_parts()]).collect()
 }
 
 /// The integrating sphere of C1.
@@ -22,13 +22,19 @@ fn integrating_sphere() -> String {
     .concat()
 }
 
-/// The mean radiance from photons of one iteration.
-fn radiance_of(text: &str, iteration: u64, round: u64) -> f64 {
+/// Consecutive iterations of one round: a single one has few photons in its small discs.
+const CONSECUTIVE: u64 = 32;
+
+/// The mean radiance from photons of consecutive iterations.
+fn radiance_of(text: &str, first: u64, round: u64) -> f64 {
     let world = world(text);
     let plan = Plan::new(&world);
-    let input = PassInput::uncancelled(&world, &plan, 1 + round, iteration);
-    let sum = |photons: &[Rgb]| photons.iter().map(|pixel| f64::from(pixel.y)).sum::<f64>() / photons.len() as f64;
-    iterate(&input, &PassMeter::default(), |contribution| sum(&contribution.photons)).expect("never cancelled")
+    let mean = |photons: &[Rgb]| photons.iter().map(|pixel| f64::from(pixel.y)).sum::<f64>() / photons.len() as f64;
+    let of = |iteration| {
+        let input = PassInput::uncancelled(&world, &plan, 1 + round, iteration);
+        iterate(&input, &PassMeter::default(), |contribution| mean(&contribution.photons)).expect("never cancelled")
+    };
+    (first..first + CONSECUTIVE).map(of).sum::<f64>() / CONSECUTIVE as f64
 }
 
 /// A1, A2, S1: one iteration of photons is right at any number, past the indices of 32 and nearly of 64 bits.
@@ -36,12 +42,33 @@ fn late_iterations() -> Vec<Case> {
     let numbers = [1u64, 57_000, 262_145, 4_194_304, 1_000_000_007, 1_000_000_000_000];
     let case = |iteration: u64| {
         let text = integrating_sphere();
-        let name = format!("integrating sphere in iteration {iteration}");
-        Case::noisy(name, "A1, A2, S1", 0.5 / PI, Tolerance::Relative(2e-3), (1, "iterations"), move |round| {
-            radiance_of(&text, iteration, round)
-        })
+        let name = format!("integrating sphere from iteration {iteration} on");
+        Case::noisy(
+            name,
+            "A1, A2, S1",
+            0.5 / PI,
+            Tolerance::Relative(2e-3),
+            (CONSECUTIVE, "iterations"),
+            move |round| radiance_of(&text, iteration, round),
+        )
     };
     numbers.into_iter().map(case).collect()
+}
+
+/// A1: iterations after a thousand million others still count, each with its weight.
+fn sum_after_a_jump() -> Case {
+    const BEFORE: u64 = 1_000_000_000;
+    const AFTER: u64 = 1_000_000;
+    let mean = || {
+        let mut film = FilmSums::after(1, 1, 0);
+        let samples = [PixelSamples::default()];
+        film.commit(BEFORE as f64, &[Rgb::splat(3.0)], &samples);
+        (0..AFTER).for_each(|_| film.commit(1.0, &[Rgb::splat(5.0)], &samples));
+        film.mean()
+    };
+    let expected = (3.0 * BEFORE as f64 + 5.0 * AFTER as f64) / (BEFORE + AFTER) as f64;
+    let name = "mean of 1e9 iterations of radiance 3 and 1e6 of radiance 5";
+    Case::exact(name, "A1", expected, Tolerance::Relative(1e-9), (AFTER, "iterations"), mean)
 }
 
 /// A1: single precision stalls after 16.7 million equal additions.

@@ -7,7 +7,7 @@ use crate::suite::{
 use patchlight::transport::fresnel;
 
 pub(crate) fn cases() -> Vec<Case> {
-    [limits(), internal_reflection(), lamps()].into_iter().flatten().collect()
+    [limits(), interfaces(), internal_reflection(), lamps()].into_iter().flatten().collect()
 }
 
 /// O1 and O2: cosines of 0, grazing angles, the critical angle; indices below, at and near 1.
@@ -38,6 +38,47 @@ fn limits() -> Vec<Case> {
         cases.push(Case::noisy(name, "O2", 1.0, Tolerance::Relative(1e-3), (16, "iterations"), move |round| {
             mean(&picture(&text, 16, round))
         }));
+    }
+    cases
+}
+
+/// C4: both fractions of the light add up to all of it, and total reflection begins at the critical angle.
+fn interfaces() -> Vec<Case> {
+    const ANGLES: u64 = 100_000;
+    let worst_sum = || {
+        let excess = |k: u64| {
+            let (cos, eta) = ((k as f64 + 0.5) / ANGLES as f64, [1.5, 1.333, 2.42, 1.0 / 1.5][(k % 4) as usize]);
+            let found = fresnel(cos, eta);
+            // Transmitted amplitudes by Fresnel's equations; the beam's width changes by the ratio of the cosines.
+            let parallel = 2.0 * cos / (eta * cos + found.cos_transmitted);
+            let perpendicular = 2.0 * cos / (cos + eta * found.cos_transmitted);
+            let amplitudes = 0.5 * (parallel * parallel + perpendicular * perpendicular);
+            let transmitted = eta * found.cos_transmitted / cos * amplitudes;
+            (found.reflectance + transmitted - 1.0).abs()
+        };
+        (0..ANGLES).map(excess).fold(0.0, f64::max)
+    };
+    let exact = |name: String, expected: f64, tolerance, measure: Box<dyn Fn() -> f64>| {
+        Case::exact(name, "C4", expected, tolerance, (ANGLES, "angles"), measure)
+    };
+    let mut cases = vec![exact(
+        "reflected plus transmitted light less 1".into(),
+        0.0,
+        Tolerance::Absolute(1e-12),
+        Box::new(worst_sum),
+    )];
+    for (index, degrees) in [(1.5, 41.81), (1.333, 48.61)] {
+        let critical = move || {
+            let is_total = |degrees: f64| fresnel(degrees.to_radians().cos(), 1.0 / index).reflectance == 1.0;
+            let (mut low, mut high) = (0.0, 90.0);
+            for _ in 0..60 {
+                let middle: f64 = 0.5 * (low + high);
+                if is_total(middle) { high = middle } else { low = middle }
+            }
+            high
+        };
+        let name = format!("critical angle of index {index}, degrees");
+        cases.push(exact(name, degrees, Tolerance::Absolute(0.005), Box::new(critical)));
     }
     cases
 }

@@ -1,7 +1,7 @@
 //! What must hold of any bytes as a file: no panic, and an error that names the file and, in texts, the place.
 
 use patchlight::cli::write_hits;
-use patchlight::engine::Session;
+use patchlight::engine::{CheckpointFile, Run, Session};
 use patchlight::film::{LinearImage, read_exr, write_exr};
 use patchlight::scene::{Location, SceneFile};
 use patchlight::transport::Cancel;
@@ -110,6 +110,34 @@ pub(crate) fn rays(bytes: &[u8]) {
                     assert!(line.split(',').count() == 4 && are_finite, "{line}");
                 }
             }
+        }
+    });
+}
+
+/// The scene of the films.
+pub(crate) fn scene_of_films() -> SceneFile {
+    let mut file = SceneFile::built_in("cornell").expect("a built-in scene");
+    (file.scene.film.width, file.scene.film.height) = (7, 5);
+    file
+}
+
+/// A checkpoint: an error, or a film with a picture; one of the run of [`scene_of_films`] also goes on.
+pub(crate) fn film(bytes: &[u8]) {
+    with_file("fuzzed.film", bytes, |path| {
+        let read = CheckpointFile::open(path).and_then(CheckpointFile::read);
+        let checkpoint = match read {
+            Err(error) => return assert_names(&error.to_string(), "fuzzed.film", false),
+            Ok(checkpoint) => checkpoint,
+        };
+        let (width, height) = checkpoint.run.size();
+        assert_eq!(checkpoint.part.film().image().pixels.len(), (width * height) as usize);
+        let file = scene_of_films();
+        let run = Run::new(&file, 1, None).expect("a run");
+        if checkpoint.run.difference(&run).is_none() {
+            let session = Session::prepare(&file, 1, None).expect("the scene can be prepared");
+            let mut session = session.resuming(checkpoint.part);
+            session.advance(Cancel::NEVER).expect("never cancelled");
+            assert_eq!(session.frame(0).image.pixels.len(), (width * height) as usize);
         }
     });
 }

@@ -1,7 +1,10 @@
 //! Valid files, from which edits begin.
 
+use super::bodies::scene_of_films;
+use patchlight::engine::{Checkpoint, Run, Session};
 use patchlight::film::{LinearImage, write_exr};
 use patchlight::math::Rgb;
+use patchlight::transport::Cancel;
 
 /// Scenes with every kind of table, material, light and shape.
 pub(super) fn scenes() -> Vec<Vec<u8>> {
@@ -158,4 +161,23 @@ pub(super) fn rays() -> Vec<Vec<u8>> {
     let plain = "ox,oy,oz,dx,dy,dz\n1.5,3,1.5,0,-1,0\n1.5,3,1.5,1e-3,-1,0\n0,0,0,1,0,0\n";
     let with_least = "# rays\nid,dz,oy,oz,dx,dy,ox,tmin\n7,1,2,3,4,5,6,0.25\n8,1,2,3,4,5,6,\n";
     vec![plain.as_bytes().to_vec(), with_least.as_bytes().to_vec()]
+}
+
+/// Films after one iteration, and after some that refined the plan.
+pub(super) fn films() -> Vec<Vec<u8>> {
+    [1, 5].map(film_bytes).to_vec()
+}
+
+/// The checkpoint of a film of this many iterations.
+pub(super) fn film_bytes(iterations: u64) -> Vec<u8> {
+    let file = scene_of_films();
+    let run = Run::new(&file, 1, None).expect("a run");
+    let mut session = Session::prepare(&file, 1, None).expect("the scene can be prepared");
+    while session.iterations() < iterations {
+        session.advance(Cancel::NEVER).expect("never cancelled");
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("a.film");
+    Checkpoint::write(&path, &run, session.part()).expect("the film can be written");
+    std::fs::read(path).expect("the film can be read")
 }

@@ -24,12 +24,13 @@ pub(crate) struct Kind {
 }
 
 /// Every kind of file that the program reads.
-pub(crate) const KINDS: [Kind; 5] = [
+pub(crate) const KINDS: [Kind; 6] = [
     Kind { name: "scenes", body: bodies::scene, corpus: corpus::scenes, random: random_files::scene },
     Kind { name: ".bpt files", body: bodies::patches, corpus: corpus::patches, random: random_files::patches },
     Kind { name: "textures", body: bodies::texture, corpus: corpus::textures, random: random_files::texture },
     Kind { name: "EXR files", body: bodies::exr, corpus: corpus::exrs, random: random_files::exr },
     Kind { name: "tables of rays", body: bodies::rays, corpus: corpus::rays, random: random_files::rays },
+    Kind { name: "films", body: bodies::film, corpus: corpus::films, random: random_files::film },
 ];
 
 impl Kind {

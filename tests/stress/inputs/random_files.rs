@@ -1,14 +1,15 @@
 //! Random files with the structure of their kind and extreme values in it.
 
-use super::corpus::exr_bytes;
+use super::corpus::{exr_bytes, film_bytes};
 use super::edits::NUMBERS;
+use flate2::{Compression, Crc, read::DeflateDecoder, write::DeflateEncoder};
 use glam::DVec3;
 use image::{DynamicImage, ImageFormat};
 use patchlight::film::LinearImage;
 use patchlight::geometry::bezier::{ControlNet, write_bpt};
 use patchlight::math::Rgb;
 use proptest::{array::uniform3, collection::vec, prelude::*, sample::select};
-use std::io::Cursor;
+use std::io::{Cursor, Read, Write};
 
 /// Numbers of every size, most of them ordinary.
 fn number() -> BoxedStrategy<String> {
@@ -175,4 +176,37 @@ pub(super) fn rays() -> BoxedStrategy<Vec<u8>> {
         [columns.join(",")].into_iter().chain(lines).collect::<Vec<_>>().join("\n").into_bytes()
     };
     (columns, rows).prop_map(text).boxed()
+}
+
+/// Bytes of a checkpoint before its head: a name, format, length of the head, length and checksum of the body, checksum of these and the
+/// head.
+const FIELDS: usize = 32;
+
+/// A film with changed bytes in its packed part, and the checksums of these bytes: as a hostile writer would make it.
+pub(super) fn film() -> BoxedStrategy<Vec<u8>> {
+    let film = film_bytes(5);
+    let head = FIELDS + u32::from_le_bytes([film[12], film[13], film[14], film[15]]) as usize;
+    let mut body = Vec::new();
+    DeflateDecoder::new(&film[head..]).read_to_end(&mut body).expect("a packed body");
+    let change = (any::<prop::sample::Index>(), select(vec![0u8, 1, 2, 0x7f, 0x80, 0xf0, 0xff]));
+    let changed = move |changes: Vec<(prop::sample::Index, u8)>| {
+        let (mut body, length) = (body.clone(), body.len());
+        changes.into_iter().for_each(|(at, byte)| body[at.index(length)] = byte);
+        let mut packed = DeflateEncoder::new(Vec::new(), Compression::fast());
+        packed.write_all(&body).expect("memory takes all");
+        let packed = packed.finish().expect("memory takes all");
+        let mut film = film[..head].to_vec();
+        film[16..24].copy_from_slice(&(packed.len() as u64).to_le_bytes());
+        film[24..28].copy_from_slice(&checksum(&[&packed]).to_le_bytes());
+        let of_head = checksum(&[&film[..28], &film[FIELDS..]]);
+        film[28..32].copy_from_slice(&of_head.to_le_bytes());
+        [film, packed].concat()
+    };
+    vec(change, 1..6).prop_map(changed).boxed()
+}
+
+fn checksum(parts: &[&[u8]]) -> u32 {
+    let mut checksum = Crc::new();
+    parts.iter().for_each(|part| checksum.update(part));
+    checksum.sum()
 }
