@@ -10,7 +10,7 @@
 //! | `theme` | every colour of the window |
 //! | `keyboard` | corrections of egui's handling of keys |
 //! | `document` | the edited scene: selection, handles, edits, undo |
-//! | `viewpoint` | the camera that the window shows the scene with: orbit, framing, back and forward |
+//! | `viewpoint` | the camera that the window shows the scene with: orbit, framing, looking around |
 //! | `commands` | every request of the user, as data |
 //! | `keeping` | what outlives the window: unsaved changes |
 //! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |

@@ -38,18 +38,30 @@ pub(crate) struct ScreenTransform {
 impl View {
     /// The transform of a film of `film` pixels on a canvas.
     pub(crate) fn transform(&self, canvas: Rect, film: Vec2) -> ScreenTransform {
-        let (scale, center) = match *self {
-            Self::Fit => {
-                let largest = (canvas.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(1.0)) / film;
-                (largest.min_elem().clamp(*SCALE_RANGE.start(), *SCALE_RANGE.end()), 0.5 * film)
-            }
-            Self::Free { scale, center } => (scale, center),
-        };
-        ScreenTransform { canvas, film, scale, center }
+        match *self {
+            Self::Fit => ScreenTransform::fitting(canvas, film, MARGIN),
+            Self::Free { scale, center } => ScreenTransform { canvas, film, scale, center },
+        }
     }
 }
 
 impl ScreenTransform {
+    /// The whole film, as large as fits with a margin in screen points, centred.
+    fn fitting(canvas: Rect, film: Vec2, margin: f32) -> Self {
+        let largest = (canvas.size() - Vec2::splat(2.0 * margin)).max(Vec2::splat(1.0)) / film;
+        let scale = largest.min_elem().clamp(*SCALE_RANGE.start(), *SCALE_RANGE.end());
+        Self { canvas, film, scale, center: 0.5 * film }
+    }
+
+    /// The whole film without a margin; one film pixel per screen pixel where the canvas has as many whole pixels as the film.
+    pub(crate) fn filling(canvas: Rect, film: Vec2, pixels_per_point: f32) -> Self {
+        let fitting = Self::fitting(canvas, film, 0.0);
+        let surplus = canvas.size() * pixels_per_point - film;
+        // The film was made from a size that may differ by rounding.
+        let agrees = surplus.min_elem() > -0.1 && surplus.max_elem() < 1.1;
+        if agrees { fitting.one_to_one(pixels_per_point).transform(canvas, film) } else { fitting }
+    }
+
     /// The rectangle of the picture, screen points; it may extend beyond the canvas.
     pub(crate) fn picture(&self) -> Rect {
         Rect::from_min_max(self.to_screen(DVec2::ZERO), self.to_screen_vec(self.film))
@@ -156,6 +168,21 @@ mod tests {
         assert!((after.picture().min - transform.picture().min - vec2(30.0, -20.0)).length() < TOLERANCE, "follows");
         let far = transform.panned(vec2(1e6, 1e6)).transform(canvas(), vec2(512.0, 512.0));
         assert!(far.picture().intersects(canvas()), "still on the canvas");
+    }
+
+    #[test]
+    fn a_film_of_the_size_of_the_canvas_fills_it_pixel_by_pixel() {
+        for ppp in [1.0, 1.25, 2.0] {
+            let canvas = Rect::from_min_size(pos2(100.3, 50.0), vec2(800.3, 600.7));
+            let film = (canvas.size() * ppp).floor();
+            let filling = ScreenTransform::filling(canvas, film, ppp);
+            assert!((filling.scale * ppp - 1.0).abs() < 1e-6, "{} at {ppp}", filling.scale);
+            let corner = filling.picture().min.to_vec2() * ppp;
+            assert!((corner - corner.round()).length() < TOLERANCE, "{corner:?} at {ppp}");
+            assert!(filling.picture().expand(1.0 / ppp).contains_rect(canvas), "{:?}", filling.picture());
+            let other = ScreenTransform::filling(canvas, vec2(512.0, 384.0), ppp);
+            assert!((other.picture().height() - 600.225).abs() < 0.1, "as large as fits: {:?}", other.picture());
+        }
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::view::{ScreenTransform, View};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, Handle, Item, Selection};
 use crate::app::theme;
+use crate::scene::Scene;
 use egui::{
     Color32, CursorIcon, Key, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
     WidgetInfo,
@@ -28,6 +29,8 @@ pub(crate) struct Canvas {
     /// Column and row of the film pixel under the pointer.
     pub(crate) pixel: Option<(u32, u32)>,
     pub(crate) show_handles: bool,
+    /// Whether the picture has the size of the canvas.
+    pub(crate) matches_window: bool,
     pub(crate) navigation: Navigation,
     drag: Option<Drag>,
 }
@@ -39,6 +42,7 @@ impl Default for Canvas {
             transform: None,
             pixel: None,
             show_handles: true,
+            matches_window: false,
             navigation: Navigation::default(),
             drag: None,
         }
@@ -55,19 +59,24 @@ pub(crate) struct Picture<'a> {
 }
 
 impl Canvas {
-    /// Shows the picture with its handles, and pushes the user's requests.
+    /// Shows the picture with its handles, and pushes the user's requests. `seen` is the document's scene with the camera and
+    /// the film of the picture.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
         document: &Document,
+        seen: &Scene,
         picture: Picture<'_>,
         commands: &mut Vec<AppCommand>,
     ) {
-        let scene = document.scene();
-        let film = Vec2::new(scene.film.width.max(1) as f32, scene.film.height.max(1) as f32);
+        let film = Vec2::new(seen.film.width.max(1) as f32, seen.film.height.max(1) as f32);
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Picture"));
-        let transform = self.view.transform(rect, film);
+        let transform = if self.matches_window && self.view == View::Fit {
+            ScreenTransform::filling(rect, film, ui.ctx().pixels_per_point())
+        } else {
+            self.view.transform(rect, film)
+        };
         self.transform = Some(transform);
         paint_picture(ui, &transform, picture);
         if !ui.is_enabled() {
@@ -75,14 +84,14 @@ impl Canvas {
         }
         let pointer = response.contains_pointer().then(|| ui.input(|input| input.pointer.hover_pos())).flatten();
         self.pixel = pointer.and_then(|pointer| transform.pixel(pointer));
-        if let Some(projection) = Projection::new(&scene.camera, &scene.film) {
+        if let Some(projection) = Projection::new(&seen.camera, &seen.film) {
             let stage = Stage { document, transform, projection };
             let drawn = if self.show_handles { stage.handles() } else { Vec::new() };
             pick(ui, &stage, &drawn, &response, commands);
             if self.show_handles {
                 self.handles_ui(ui, &stage, &drawn, &response, commands);
             }
-            if self.drag.is_none() && self.navigation.navigate(ui, &stage, &scene.camera, &response, commands) {
+            if self.drag.is_none() && self.navigation.navigate(ui, &stage, &seen.camera, &response, commands) {
                 return;
             }
         }

@@ -15,6 +15,11 @@ const EXPOSURE_STEP: f64 = 0.5;
 impl Editor {
     /// Carries out a command.
     pub(crate) fn apply(&mut self, ctx: &Context, command: AppCommand) {
+        self.carry_out(ctx, command);
+        self.viewpoint.follow(self.document.file());
+    }
+
+    fn carry_out(&mut self, ctx: &Context, command: AppCommand) {
         match command {
             AppCommand::Do(action) => self.act(ctx, action),
             AppCommand::Edit(edit) => self.edit(edit),
@@ -23,7 +28,7 @@ impl Editor {
             AppCommand::AddFrom(purpose) => self.ask_for_path(ctx, purpose),
             AppCommand::Drop(path) => self.drop_file(ctx, path),
             AppCommand::GoTo(done) => self.document.go_to(done),
-            AppCommand::CancelDrag => self.document.abandon_gesture(),
+            AppCommand::CancelDrag => self.cancel_drag(),
             AppCommand::Leave(next) => self.leave(ctx, next),
             AppCommand::Answer(answer) => self.answer(ctx, answer),
             AppCommand::Replace(path) => self.replace(ctx, path),
@@ -62,6 +67,9 @@ impl Editor {
             Action::Darker => self.expose(-EXPOSURE_STEP),
             Action::View(view) => self.show_view(view),
             Action::Navigate => self.canvas.navigation.always = !self.canvas.navigation.always,
+            Action::LookAround => self.toggle_look_around(),
+            Action::UseView => self.use_view(),
+            Action::MatchWindow => self.canvas.matches_window = !self.canvas.matches_window,
             Action::ToggleHandles => self.canvas.show_handles = !self.canvas.show_handles,
             Action::TogglePanels => self.show_panels = !self.show_panels,
             Action::FullScreen => toggle_full_screen(ctx),
@@ -86,7 +94,7 @@ impl Editor {
     }
 
     fn duplicate(&mut self) {
-        if let Some(edit) = new_items::duplicate(self.document.scene(), self.document.selection.item) {
+        if let Some(edit) = new_items::duplicate(&self.viewpoint.seen().scene, self.document.selection.item) {
             self.document.edit(edit);
         }
     }

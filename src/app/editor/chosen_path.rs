@@ -54,7 +54,7 @@ impl Editor {
                     self.export.write_surface(ctx, surface, path);
                 }
             }
-            Purpose::AddSurface => match new_items::surface(self.document.scene(), &path) {
+            Purpose::AddSurface => match new_items::surface(&self.viewpoint.seen().scene, &path) {
                 Ok(object) => self.document.edit(Edit::AddObject(object)),
                 Err(error) => self.dialog = Some(Dialog::Error("The patches cannot be added".to_owned(), error)),
             },

@@ -5,7 +5,7 @@ use crate::app::canvas::Picture;
 use crate::app::commands::{AppCommand, action};
 use crate::app::panels::{outline_ui, progress_ui, properties_ui};
 use crate::app::shell::{
-    Visibility, dialog_ui, drop_hint_ui, first_hint_ui, history_ui, menu_ui, notices_ui, status_bar_ui,
+    Visibility, dialog_ui, drop_hint_ui, first_hint_ui, history_ui, looking_ui, menu_ui, notices_ui, status_bar_ui,
 };
 use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 
@@ -28,7 +28,7 @@ impl Editor {
         self.poll_export(ctx);
         self.poll_recovery(ctx);
         if let Some(frame) = self.rendering.frame() {
-            self.display.show(ctx, &frame.image, &self.document.scene().film);
+            self.display.show(ctx, &frame.image, &self.viewpoint.seen().scene.film);
         }
         self.display.poll(ctx);
     }
@@ -36,6 +36,7 @@ impl Editor {
     /// Draws the window's content, then carries out the user's requests.
     pub(crate) fn ui(&mut self, ui: &mut Ui) {
         let mut commands = Vec::new();
+        self.viewpoint.follow(self.document.file());
         if self.dialog.is_some() {
             // Under a dialog no widget reacts and no tooltip opens. The dialog dims the window itself.
             ui.disable();
@@ -59,21 +60,23 @@ impl Editor {
         }
         let (is_down, time) = ui.input(|input| (input.pointer.any_down(), input.time));
         if !is_down && !self.canvas.navigation.is_wheel_turning(time) {
-            self.document.end_gesture();
-            self.visited.rest(self.document.scene().camera);
+            self.end_gesture();
         }
-        self.rendering.submit(self.document.file());
+        self.match_window(ui.ctx());
+        self.rendering.submit(self.viewpoint.seen());
     }
 
     fn bars_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         let visible = Visibility {
             navigate: self.canvas.navigation.always,
+            look_around: self.viewpoint.looks_around(),
+            match_window: self.canvas.matches_window,
             handles: self.canvas.show_handles,
             panels: self.show_panels,
             history: self.show_history,
         };
         Panel::top("menu").show(ui, |ui| menu_ui(ui, &self.document, self.rendering.is_paused(), visible, commands));
-        let film = &self.document.scene().film;
+        let film = &self.viewpoint.seen().scene.film;
         Panel::bottom("status").show(ui, |ui| status_bar_ui(ui, film, &self.rendering, &self.canvas));
     }
 
@@ -99,7 +102,9 @@ impl Editor {
         // The properties stay visible in a low window.
         let highest = (0.6 * ui.available_height()).max(80.0);
         Panel::top("outline").resizable(true).default_size(outline).size_range(80.0..=highest).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
+            ScrollArea::vertical()
+                .auto_shrink(false)
+                .show(ui, |ui| outline_ui(ui, &self.document, &self.viewpoint.seen().scene, commands));
         });
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(4.0);
@@ -110,12 +115,15 @@ impl Editor {
     fn canvas_ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         let canvas = ui.available_rect_before_wrap();
         let picture = Picture { texture: self.display.texture(), current: self.rendering.is_current() };
-        self.canvas.show(ui, &self.document, picture, commands);
+        self.canvas.show(ui, &self.document, &self.viewpoint.seen().scene, picture, commands);
         if self.show_hint && self.dialog.is_none() && self.document.undoable().is_none() {
             first_hint_ui(ui, canvas, commands);
         }
         // Notices lie over the picture, so the picture stays in place when they come and go.
         ui.scope_builder(UiBuilder::new().max_rect(canvas), |ui| {
+            if self.viewpoint.looks_around() {
+                looking_ui(ui, commands);
+            }
             notices_ui(ui, self.document.scene(), &self.rendering, &self.chooser, commands);
         });
         if self.show_history && self.dialog.is_none() {

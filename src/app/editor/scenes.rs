@@ -67,10 +67,11 @@ impl Editor {
             return self.ask_again(Purpose::SaveScene, &path, error.to_string());
         }
         self.toasts.success(format!("Saved {}", path.display()));
-        let rendered = self.rendering.renders(self.document.file());
+        let rendered = self.rendering.renders(self.viewpoint.seen());
         self.document.saved_as(path, file);
         if rendered {
-            self.rendering.relocate(self.document.file());
+            self.viewpoint.follow(self.document.file());
+            self.rendering.relocate(self.viewpoint.seen());
         }
         if let Some(next) = self.after_save.take() {
             self.proceed(ctx, next);
@@ -111,6 +112,7 @@ impl Editor {
     /// Replaces the document by another one, and shows the whole picture.
     pub(crate) fn replace_document(&mut self, document: Document) {
         self.document = document;
+        self.viewpoint.look(None);
         self.visited = Visited::new(self.document.scene().camera);
         self.canvas.fit();
         self.export.cancel_picture();

@@ -7,7 +7,7 @@ use crate::app::files::{Chooser, Export};
 use crate::app::keeping::{Autosave, LeftOvers};
 use crate::app::rendering::{Display, Rendering};
 use crate::app::shell::Dialog;
-use crate::app::viewpoint::Visited;
+use crate::app::viewpoint::{RestingSize, Viewpoint, Visited};
 use crate::scene::SceneFile;
 use egui_notify::{Anchor, Toasts};
 
@@ -15,9 +15,13 @@ use egui_notify::{Anchor, Toasts};
 pub(crate) struct Editor {
     pub(crate) document: Document,
     pub(crate) rendering: Rendering,
+    /// The scene as the window shows it.
+    pub(crate) viewpoint: Viewpoint,
     /// The views that the user visited.
     pub(crate) visited: Visited,
     pub(crate) canvas: Canvas,
+    /// The size of the canvas, screen pixels.
+    pub(crate) canvas_size: RestingSize,
     pub(crate) display: Display,
     pub(crate) chooser: Chooser,
     pub(crate) export: Export,
@@ -42,10 +46,12 @@ impl Editor {
         let mut rendering = Rendering::new();
         rendering.submit(document.file());
         Self {
+            viewpoint: Viewpoint::new(document.file()),
             visited: Visited::new(document.scene().camera),
             document,
             rendering,
             canvas: Canvas::default(),
+            canvas_size: RestingSize::default(),
             display: Display::default(),
             chooser: Chooser::default(),
             export: Export::default(),

@@ -152,7 +152,11 @@ fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
                 ui.end_row();
             }
             for action in Action::all() {
-                ui.strong(action.shortcuts(ui.ctx()).join(", "));
+                let shortcuts = action.shortcuts(ui.ctx());
+                if shortcuts.is_empty() {
+                    continue;
+                }
+                ui.strong(shortcuts.join(", "));
                 ui.label(action.label());
                 ui.end_row();
             }

@@ -10,6 +10,8 @@ use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Visibility {
     pub(crate) navigate: bool,
+    pub(crate) look_around: bool,
+    pub(crate) match_window: bool,
     pub(crate) handles: bool,
     pub(crate) panels: bool,
     pub(crate) history: bool,
@@ -86,6 +88,8 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
     ui.separator();
     for (action, on) in [
         (Action::Navigate, visible.navigate),
+        (Action::LookAround, visible.look_around),
+        (Action::MatchWindow, visible.match_window),
         (Action::ToggleHandles, visible.handles),
         (Action::TogglePanels, visible.panels),
     ] {

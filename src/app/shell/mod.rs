@@ -29,6 +29,6 @@ pub(crate) use drop_hint::{drop_hint, drop_hint_ui};
 pub(crate) use first_hint::first_hint_ui;
 pub(crate) use history::history_ui;
 pub(crate) use menu::{Visibility, menu_ui};
-pub(crate) use notices::notices_ui;
+pub(crate) use notices::{looking_ui, notices_ui};
 pub(crate) use palette::Palette;
 pub(crate) use status_bar::status_bar_ui;

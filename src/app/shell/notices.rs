@@ -1,6 +1,6 @@
-//! Messages over the picture: failures, problems of the scene, a lack of light, a slow file dialog.
+//! Messages over the picture: a camera of the window alone, failures, problems of the scene, a lack of light, a slow file dialog.
 
-use crate::app::commands::AppCommand;
+use crate::app::commands::{Action, AppCommand};
 use crate::app::document::kinds;
 use crate::app::files::{Chooser, Request};
 use crate::app::rendering::Rendering;
@@ -33,6 +33,23 @@ pub(crate) fn notices_ui(
     if let Some(request) = chooser.pending().filter(|_| chooser.is_slow(ui.ctx())) {
         slow_dialog_ui(ui, request, commands);
     }
+}
+
+/// Says that the user looks around, with the ways to end it.
+pub(crate) fn looking_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+    let color = theme::palette(ui.visuals().dark_mode).plot;
+    notice_ui(ui, color, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.label("Looking around: the scene keeps its own camera.");
+            for (label, action) in
+                [("Use as camera", Action::UseView), ("Back to the scene's camera", Action::LookAround)]
+            {
+                if ui.button(label).clicked() {
+                    commands.push(AppCommand::Do(action));
+                }
+            }
+        });
+    });
 }
 
 fn failure_ui(ui: &mut Ui, message: &str) {

@@ -25,6 +25,11 @@ impl Visited {
         }
     }
 
+    /// The camera when it rested last.
+    pub(crate) fn present(&self) -> Camera {
+        self.rest
+    }
+
     /// Goes back to the previous view; `None` before the first.
     pub(crate) fn back(&mut self) -> Option<Camera> {
         let camera = self.before.pop()?;
