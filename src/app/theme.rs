@@ -60,6 +60,8 @@ pub(crate) mod overlay {
     pub(crate) const SELECTED: Color32 = Color32::from_rgb(255, 150, 40);
     /// The tint of a picture that does not show the present scene.
     pub(crate) const OUTDATED: Color32 = Color32::from_gray(90);
+    /// The lines between magnified pixels, visible on white and on black.
+    pub(crate) const GRID: Color32 = Color32::from_rgba_premultiplied(56, 56, 56, 112);
     /// A light.
     pub(crate) const LIGHT: Color32 = Color32::from_rgb(255, 236, 130);
 }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `view` | zoom and pan: the map between film pixels and screen points |
 //! | `projection` | the pinhole camera: the map between world space and film pixels |
+//! | `pixels` | the grid and the numbers of magnified pixels |
 //! | `drag` | the position of a dragged handle |
 //! | `picking` | the nearest object under a film point |
 //! | `stage` | the handles on the screen, and which handles a click or drag affects |
@@ -15,6 +16,7 @@ mod drag;
 mod navigation;
 mod overlay;
 mod picking;
+mod pixels;
 mod projection;
 mod stage;
 mod view;

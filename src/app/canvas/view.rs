@@ -4,7 +4,7 @@ use egui::{Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;
 
 /// The range of scales, screen points per film pixel.
-const SCALE_RANGE: std::ops::RangeInclusive<f32> = 0.02..=64.0;
+const SCALE_RANGE: std::ops::RangeInclusive<f32> = 0.02..=256.0;
 /// Margin around a fitted picture, screen points.
 const MARGIN: f32 = 12.0;
 

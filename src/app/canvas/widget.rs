@@ -4,12 +4,14 @@ use super::drag::{Constraint, Drag};
 use super::navigation::Navigation;
 use super::overlay;
 use super::picking;
+use super::pixels;
 use super::projection::Projection;
 use super::stage::{self, ScreenHandle, Stage};
 use super::view::{ScreenTransform, View};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, Handle, Item, Selection};
 use crate::app::theme;
+use crate::film::LinearImage;
 use crate::scene::Scene;
 use egui::{
     Color32, CursorIcon, Key, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
@@ -54,6 +56,8 @@ impl Default for Canvas {
 pub(crate) struct Picture<'a> {
     /// The newest picture; `None` before the first.
     pub(crate) texture: Option<&'a egui::TextureHandle>,
+    /// The linear image of the newest picture; `None` where it has fewer pixels than the film.
+    pub(crate) image: Option<&'a LinearImage>,
     /// Whether the picture shows the present scene, or soon will; any other picture is dimmed.
     pub(crate) current: bool,
 }
@@ -79,6 +83,9 @@ impl Canvas {
         };
         self.transform = Some(transform);
         paint_picture(ui, &transform, picture);
+        if picture.texture.is_some() {
+            pixels::paint_pixels(&ui.painter_at(rect), &transform, &seen.film, picture.image);
+        }
         if !ui.is_enabled() {
             self.drag = None;
         }
@@ -283,7 +290,7 @@ fn pick(ui: &Ui, stage: &Stage<'_>, drawn: &[ScreenHandle], response: &Response,
     }
 }
 
-fn paint_picture(ui: &Ui, transform: &ScreenTransform, Picture { texture, current }: Picture<'_>) {
+fn paint_picture(ui: &Ui, transform: &ScreenTransform, Picture { texture, current, .. }: Picture<'_>) {
     let palette = theme::palette(ui.visuals().dark_mode);
     let painter = ui.painter_at(transform.canvas);
     painter.rect_filled(transform.canvas, 0.0, palette.canvas);

@@ -52,7 +52,7 @@ impl Edit {
         match self {
             Self::Name(_) => ("rename scene", 0),
             Self::Camera(_) => ("edit camera", 0),
-            Self::View(_) => ("change of view", 0),
+            Self::View(_) => ("change view", 0),
             Self::Film(_) => ("edit picture settings", 0),
             Self::Render(_) => ("edit render settings", 0),
             Self::Object(index, _) => ("edit object", *index),

@@ -4,6 +4,7 @@ use super::state::Editor;
 use crate::app::canvas::Picture;
 use crate::app::commands::{AppCommand, action};
 use crate::app::panels::{outline_ui, progress_ui, properties_ui};
+use crate::app::rendering::Sampling;
 use crate::app::shell::{
     Visibility, dialog_ui, drop_hint_ui, first_hint_ui, history_ui, looking_ui, menu_ui, notices_ui, status_bar_ui,
 };
@@ -30,6 +31,8 @@ impl Editor {
         if let Some(frame) = self.rendering.frame() {
             self.display.show(ctx, &frame.image, &self.viewpoint.seen().scene.film);
         }
+        let scale = self.canvas.transform.map_or(1.0, |transform| transform.scale * ctx.pixels_per_point());
+        self.display.sample(ctx, Sampling::at(scale));
         self.display.poll(ctx);
     }
 
@@ -114,7 +117,13 @@ impl Editor {
 
     fn canvas_ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         let canvas = ui.available_rect_before_wrap();
-        let picture = Picture { texture: self.display.texture(), current: self.rendering.is_current() };
+        let film = &self.viewpoint.seen().scene.film;
+        let image = self.rendering.frame().map(|frame| &*frame.image);
+        let picture = Picture {
+            texture: self.display.texture(),
+            image: image.filter(|image| (image.width, image.height) == (film.width, film.height)),
+            current: self.rendering.is_current(),
+        };
         self.canvas.show(ui, &self.document, &self.viewpoint.seen().scene, picture, commands);
         if self.show_hint && self.dialog.is_none() && self.document.undoable().is_none() {
             first_hint_ui(ui, canvas, commands);

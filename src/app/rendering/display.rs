@@ -1,9 +1,10 @@
 //! Tone mapping of linear images to a texture, off the UI thread. Exposure and tone curve restart no rendering.
 
+use super::sampling::Sampling;
 use crate::film::{LinearImage, ToneMap};
 use crate::scene::ToneCurve;
 use crossbeam_channel::{Receiver, Sender, bounded};
-use egui::{Color32, ColorImage, Context, TextureFilter, TextureHandle, TextureOptions};
+use egui::{Color32, ColorImage, Context, TextureHandle};
 use std::sync::Arc;
 
 /// A linear image with its display settings.
@@ -22,6 +23,9 @@ type Pixels = (Arc<ColorImage>, bool);
 /// The texture of the newest picture.
 pub(crate) struct Display {
     texture: Option<TextureHandle>,
+    /// The image in the texture, for a change of the sampling.
+    shown: Option<Pixels>,
+    sampling: Sampling,
     requested: Option<Job>,
     /// The newest image, which waits until the current job is done.
     waiting: Option<Job>,
@@ -31,7 +35,15 @@ pub(crate) struct Display {
 
 impl Default for Display {
     fn default() -> Self {
-        Self { texture: None, requested: None, waiting: None, busy: false, done: bounded(1) }
+        Self {
+            texture: None,
+            shown: None,
+            sampling: Sampling::default(),
+            requested: None,
+            waiting: None,
+            busy: false,
+            done: bounded(1),
+        }
     }
 }
 
@@ -76,11 +88,20 @@ impl Display {
 
     /// Uploads a finished image and starts the waiting job. Call it once per frame.
     pub(crate) fn poll(&mut self, ctx: &Context) {
-        if let Ok((image, full_size)) = self.done.1.try_recv() {
+        if let Ok(pixels) = self.done.1.try_recv() {
             self.busy = false;
-            self.upload(ctx, image, full_size);
+            self.shown = Some(pixels);
+            self.upload(ctx);
         }
         self.start(ctx);
+    }
+
+    /// Samples the texture in this way from now on.
+    pub(crate) fn sample(&mut self, ctx: &Context, sampling: Sampling) {
+        if self.sampling != sampling {
+            self.sampling = sampling;
+            self.upload(ctx);
+        }
     }
 
     fn start(&mut self, ctx: &Context) {
@@ -98,10 +119,9 @@ impl Display {
         });
     }
 
-    fn upload(&mut self, ctx: &Context, image: Arc<ColorImage>, full_size: bool) {
-        // A zoomed picture shows its pixels; a draft with fewer pixels is interpolated, which looks calmer.
-        let magnification = if full_size { TextureFilter::Nearest } else { TextureFilter::Linear };
-        let options = TextureOptions { magnification, minification: TextureFilter::Linear, ..Default::default() };
+    fn upload(&mut self, ctx: &Context) {
+        let Some((image, full_size)) = self.shown.clone() else { return };
+        let options = self.sampling.options(full_size);
         match &mut self.texture {
             Some(texture) => texture.set(image, options),
             None => self.texture = Some(ctx.load_texture("picture", image, options)),

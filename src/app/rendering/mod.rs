@@ -6,14 +6,17 @@
 //! | `submission` | the scene that the engine renders, and the problems that keep a scene from it |
 //! | `error_curve` | [`ErrorCurve`]: the error estimate over time |
 //! | `state` | [`Rendering`]: the newest frame, the engine's status, the commands for the engine |
+//! | `sampling` | [`Sampling`]: how the screen samples the picture |
 //! | `display` | [`Display`]: the texture of the newest picture, tone-mapped off the UI thread |
 
 mod display;
 mod error_curve;
 mod same_picture;
+mod sampling;
 mod state;
 mod submission;
 
 pub(crate) use display::Display;
 pub(crate) use error_curve::ErrorCurve;
+pub(crate) use sampling::Sampling;
 pub(crate) use state::Rendering;

@@ -99,3 +99,37 @@ fn the_target_error_is_set_in_the_panel() {
     ui.run_steps(2);
     assert!(ui.query_by_label("Converged").is_some());
 }
+
+/// The numbers over the picture: red, green and blue of a pixel in three lines.
+fn numbers(ui: &Ui) -> Vec<String> {
+    let texts = ui.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
+        egui::Shape::Text(text) if text.galley.rows.len() == 3 => Some(text.galley.text().to_owned()),
+        _ => None,
+    });
+    texts.filter(|text| text.lines().all(|line| line.parse::<f32>().is_ok())).collect()
+}
+
+#[test]
+fn magnified_pixels_have_sharp_edges_and_numbers() {
+    let mut ui = open("report");
+    let size = scene(&ui).film.width;
+    receive(&mut ui, frame(1, false, size));
+    wait_until(&mut ui, "the texture", |ui| ui.state().display.texture().is_some());
+    let magnification = |ui: &Ui| {
+        let id = ui.state().display.texture().unwrap().id();
+        ui.ctx.tex_manager().read().meta(id).unwrap().options.magnification
+    };
+    assert_eq!(magnification(&ui), egui::TextureFilter::Linear, "the whole picture is smooth");
+    ui.state_mut().canvas.zoom(8.0);
+    ui.run_steps(3);
+    assert_eq!(magnification(&ui), egui::TextureFilter::Nearest);
+    assert!(numbers(&ui).is_empty(), "there is no room for numbers");
+    ui.state_mut().canvas.zoom(8.0);
+    ui.run_steps(3);
+    let shown = numbers(&ui);
+    assert!(shown.len() > 20, "{} pixels have numbers", shown.len());
+    assert!(shown.contains(&"0.1429\n0.1429\n0.1429".to_owned()), "{:?}", shown.first());
+    receive(&mut ui, frame(2, true, 8));
+    ui.run_steps(3);
+    assert!(numbers(&ui).is_empty(), "a coarse draft has no pixels to tell about");
+}
