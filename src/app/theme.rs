@@ -50,8 +50,8 @@ pub(crate) mod overlay {
     pub(crate) const OUTLINE: Color32 = Color32::from_rgba_premultiplied(0, 0, 0, 170);
     /// The control net in the side panel.
     pub(crate) const NET: Color32 = Color32::from_rgb(150, 196, 255);
-    /// The control nets of all other patches.
-    pub(crate) const NET_FAINT: Color32 = Color32::from_rgba_premultiplied(75, 98, 128, 128);
+    /// The control nets of all other patches, and what an object hides.
+    pub(crate) const NET_FAINT: Color32 = Color32::from_rgba_premultiplied(60, 78, 102, 102);
     /// A handle.
     pub(crate) const HANDLE: Color32 = Color32::from_rgb(235, 242, 255);
     /// The handle under the pointer.
@@ -62,6 +62,12 @@ pub(crate) mod overlay {
     pub(crate) const OUTDATED: Color32 = Color32::from_gray(90);
     /// The lines between magnified pixels, visible on white and on black.
     pub(crate) const GRID: Color32 = Color32::from_rgba_premultiplied(56, 56, 56, 112);
+    /// A handle that an object hides.
+    pub(crate) const HIDDEN: Color32 = Color32::from_rgba_premultiplied(70, 73, 77, 90);
+    /// A control point of a patch that is not current.
+    pub(crate) const FAINT: Color32 = Color32::from_rgba_premultiplied(110, 136, 170, 190);
+    /// The arrow along the surface normal.
+    pub(crate) const NORMAL: Color32 = Color32::from_rgb(225, 150, 255);
     /// A light.
     pub(crate) const LIGHT: Color32 = Color32::from_rgb(255, 236, 130);
 }

@@ -1,7 +1,7 @@
-//! The position of a dragged handle: in the plane through it that faces the camera, or along one axis. Knows no widget.
+//! The position of a dragged handle: in the plane through it that faces the camera, in another plane, or along one axis. Knows
+//! no widget.
 
 use super::projection::Projection;
-use crate::app::document::Handle;
 use glam::{DVec2, DVec3};
 
 /// Sine of the angle between an axis and the camera ray below which perspective gives no usable position along the axis,
@@ -11,7 +11,8 @@ const STEEP: f64 = 0.5;
 const END_ON: f64 = 0.05;
 /// The nearest depth that a drag reaches, as a fraction of the depth at its start.
 const NEAREST: f64 = 0.1;
-/// The greatest speed along an axis over the speed at the start of the drag.
+/// The greatest speed along an axis over the speed at the start of the drag, and the greatest depth in a plane over the depth
+/// at the start.
 const FASTEST: f64 = 10.0;
 
 /// The plane or line that a drag moves in.
@@ -22,23 +23,23 @@ pub(crate) enum Constraint {
     Facing,
     /// The line through the handle along this unit vector.
     Axis(DVec3),
+    /// The plane through the handle with this normal.
+    Plane(DVec3),
 }
 
 /// A drag of a handle. The handle's position depends on the present pointer position alone, so no error accumulates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Drag {
-    /// The dragged handle.
-    pub(crate) handle: Handle,
     /// The handle's position before the drag, world space.
-    start: DVec3,
+    pub(crate) start: DVec3,
     /// From the pointer to the handle at the start of the drag, film pixels.
     grab_offset: DVec2,
 }
 
 impl Drag {
     /// Starts a drag with the pointer at `pointer`, film pixels; `None` where the handle is behind the camera.
-    pub(crate) fn new(handle: Handle, start: DVec3, pointer: DVec2, projection: &Projection) -> Option<Self> {
-        Some(Self { handle, start, grab_offset: projection.project(start)? - pointer })
+    pub(crate) fn new(start: DVec3, pointer: DVec2, projection: &Projection) -> Option<Self> {
+        Some(Self { start, grab_offset: projection.project(start)? - pointer })
     }
 
     /// The handle's world position while the pointer is at `pointer`, film pixels.
@@ -47,7 +48,21 @@ impl Drag {
         match constraint {
             Constraint::Facing => projection.unproject(film, projection.depth(self.start)),
             Constraint::Axis(axis) => self.along(axis, film, projection),
+            Constraint::Plane(normal) => self.within(normal, film, projection),
         }
+    }
+
+    /// The point of the plane with this normal that projects to `film`. Where the plane there is out of reach, because it passes
+    /// the camera or vanishes at the horizon, the nearest point in reach on the way to `film`.
+    fn within(&self, normal: DVec3, film: DVec2, projection: &Projection) -> DVec3 {
+        let Some(start) = projection.project(self.start) else { return self.start };
+        // The inverse depth of a plane is affine in film coordinates.
+        let first = 1.0 / projection.depth(self.start);
+        let last = projection.inverse_depth(film, self.start, normal);
+        let reachable = last.clamp(first / FASTEST, first / NEAREST);
+        let way = if last == reachable { 1.0 } else { (reachable - first) / (last - first) };
+        let target = projection.unproject(start + way * (film - start), 1.0 / reachable);
+        if target.is_finite() { target } else { self.start }
     }
 
     /// The point of the axis whose projection is nearest to `film`. Along a steep axis the handle moves instead as far as
@@ -93,7 +108,7 @@ mod tests {
 
     fn grabbed(start: DVec3, off: DVec2) -> (Drag, DVec2) {
         let pointer = projection().project(start).unwrap() + off;
-        (Drag::new(Handle::Light(0), start, pointer, &projection()).unwrap(), pointer)
+        (Drag::new(start, pointer, &projection()).unwrap(), pointer)
     }
 
     #[test]
@@ -125,6 +140,33 @@ mod tests {
                 there.distance(wanted) < 1e-10,
                 "{there} along {axis}: the lines meet at an angle, which costs digits"
             );
+        }
+    }
+
+    #[test]
+    fn a_handle_in_a_plane_follows_the_pointer_within_it() {
+        let (projection, start) = (projection(), DVec3::new(0.3, -0.2, 0.5));
+        let (drag, _) = grabbed(start, DVec2::ZERO);
+        for normal in DVec3::AXES {
+            let wanted = start + 0.2 * (DVec3::ONE - normal);
+            let there = drag.target(projection.project(wanted).unwrap(), Constraint::Plane(normal), &projection);
+            assert!(there.distance(wanted) < 1e-11, "{there} across {normal}: the ray meets the plane at an angle");
+        }
+    }
+
+    #[test]
+    fn no_pointer_moves_a_handle_in_a_plane_endlessly_far_or_behind_the_camera() {
+        let (projection, start) = (projection(), DVec3::new(0.3, -0.2, 0.5));
+        let (drag, pointer) = grabbed(start, DVec2::ZERO);
+        let depth = projection.depth(start);
+        for normal in DVec3::AXES {
+            for k in 0..64 {
+                let way = 3000.0 * DVec2::from_angle(f64::from(k) * 0.1);
+                let there = drag.target(pointer + way, Constraint::Plane(normal), &projection);
+                let reached = projection.depth(there) / depth;
+                assert!(reached > 0.999 * NEAREST && reached < 1.001 * FASTEST, "{there} across {normal}");
+                assert!((there - start).dot(normal).abs() < 1e-9 * depth, "{there} left the plane across {normal}");
+            }
         }
     }
 

@@ -6,23 +6,50 @@
 //! | `projection` | the pinhole camera: the map between world space and film pixels |
 //! | `pixels` | the grid and the numbers of magnified pixels |
 //! | `drag` | the position of a dragged handle |
-//! | `picking` | the nearest object under a film point |
+//! | `picking` | the surfaces of the objects, and the nearest along a ray |
+//! | `visibility` | which handles the camera sees |
+//! | `normal` | the surface normal at the selection |
+//! | `sight` | [`Sight`](sight::Sight): surfaces, welded points and visibility, kept from frame to frame |
 //! | `stage` | the handles on the screen, and which handles a click or drag affects |
+//! | `gizmo` | arrows and squares on the selection |
+//! | `scenery` | handles and gizmo of one frame, and what a press takes |
+//! | `snap` | the grid that drags snap to |
+//! | `falloff` | soft selection: how far neighbours follow |
+//! | `movement` | a move of handles from its first to its last frame |
+//! | `nudge` | moves by arrow keys |
+//! | `rectangle` | selection of control points by a rectangle |
 //! | `navigation` | [`Navigation`](navigation::Navigation): drags and the wheel move the camera |
-//! | `overlay` | painting of control nets, handles and drag axes |
+//! | `overlay` | painting of control nets, handles, gizmo and drag axes |
+//! | `readout` | the way of a drag in numbers |
+//! | `handle_widgets` | tooltips and accessible names of handles and gizmo |
+//! | `grasp` | [`Grasp`](grasp::Grasp): pointer and keys on handles and gizmo |
 //! | `widget` | [`Canvas`]: pointer and keyboard input on the picture |
 
 mod drag;
+mod falloff;
+mod gizmo;
+mod grasp;
+mod handle_widgets;
+mod movement;
 mod navigation;
+mod normal;
+mod nudge;
 mod overlay;
 mod picking;
 mod pixels;
 mod projection;
+mod readout;
+mod rectangle;
+mod scenery;
+mod sight;
+mod snap;
 mod stage;
 mod view;
+mod visibility;
 mod widget;
 
 pub(crate) use projection::Projection;
+pub(crate) use snap::{automatic_step, steps_around};
 #[cfg(test)]
 pub(crate) use view::View;
 pub(crate) use widget::{Canvas, Picture};

@@ -1,6 +1,5 @@
 //! Navigation: drags and the wheel orbit, pan and dolly the camera.
 
-use super::picking;
 use super::stage::Stage;
 use crate::app::commands::AppCommand;
 use crate::app::theme::overlay;
@@ -192,7 +191,8 @@ fn selection_center(stage: &Stage<'_>) -> Option<DVec3> {
 
 /// The nearest surface point under the pointer; `None` beside all objects.
 fn picked(stage: &Stage<'_>, pointer: Pos2) -> Option<DVec3> {
-    picking::nearest_point(stage.document.scene(), &stage.projection.ray(stage.transform.to_film(pointer)))
+    let ray = stage.projection.ray(stage.transform.to_film(pointer));
+    stage.sight.surfaces.nearest(&ray).map(|pick| ray.at(pick.distance))
 }
 
 /// The nearest surface point under the pointer; beside all objects, the point in the target's depth.

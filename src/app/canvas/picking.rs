@@ -1,84 +1,145 @@
-//! The nearest object along a camera ray. Knows no widget.
+//! The surfaces of all objects, prepared for rays and kept from frame to frame. Knows no widget.
 
 use crate::geometry::bezier::Patch;
+use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
 use crate::math::Ray;
-use crate::scene::{Bezier, Object, Scene, Shape};
-use glam::DVec3;
+use crate::scene::{Bezier, SceneFile, Shape};
+use std::sync::Arc;
 
-/// The index of the nearest object that the ray meets; `None` where the ray meets no object.
-pub(crate) fn nearest_object(scene: &Scene, ray: &Ray) -> Option<usize> {
-    nearest_hit(scene, ray).map(|(index, _)| index)
+/// The surfaces of a scene's objects. An update prepares only the surfaces that changed.
+#[derive(Debug, Default)]
+pub(crate) struct Surfaces {
+    /// The scene of the last update.
+    file: Option<Arc<SceneFile>>,
+    objects: Vec<Prepared>,
+    /// The object and the patch of each primitive of the aggregate.
+    owners: Vec<(usize, usize)>,
+    aggregate: Aggregate,
+    revision: u64,
 }
 
-/// The nearest point in which the ray meets an object; `None` where the ray meets no object.
-pub(crate) fn nearest_point(scene: &Scene, ray: &Ray) -> Option<DVec3> {
-    nearest_hit(scene, ray).map(|(_, distance)| ray.at(distance))
+/// An object's shape with its primitives, each with the index of its patch; 0 for other shapes.
+#[derive(Debug)]
+struct Prepared {
+    shape: Shape,
+    primitives: Vec<(usize, Primitive)>,
 }
 
-fn nearest_hit(scene: &Scene, ray: &Ray) -> Option<(usize, f64)> {
-    let hits = scene.objects.iter().enumerate().filter_map(|(index, object)| Some((index, distance(object, ray)?)));
-    hits.min_by(|(_, a), (_, b)| a.total_cmp(b))
+/// The nearest surface along a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pick {
+    /// The object's index.
+    pub(crate) object: usize,
+    /// The patch of a Bezier object; 0 for other shapes.
+    pub(crate) patch: usize,
+    /// Distance along a ray of unit direction, scene units.
+    pub(crate) distance: f64,
 }
 
-/// Distance along the ray to the object, scene units; `None` where the ray misses.
-fn distance(object: &Object, ray: &Ray) -> Option<f64> {
-    match &object.shape {
-        Shape::Quad { corner, edge_u, edge_v } => parallelogram(ray, *corner, *edge_u, *edge_v),
-        Shape::Sphere { center, radius } => sphere(ray, *center, *radius),
-        Shape::Plane { point, normal, .. } => plane(ray, *point, *normal),
-        Shape::Bezier(bezier) => surface(ray, bezier),
+impl Surfaces {
+    /// Prepares the surfaces that changed since the last update.
+    pub(crate) fn update(&mut self, file: &Arc<SceneFile>) {
+        if self.file.as_ref().is_some_and(|kept| Arc::ptr_eq(kept, file)) {
+            return;
+        }
+        self.file = Some(Arc::clone(file));
+        let mut before = std::mem::take(&mut self.objects).into_iter();
+        let mut changed = false;
+        for object in &file.scene.objects {
+            let kept = before.next();
+            let same = kept.as_ref().is_some_and(|kept| kept.shape == object.shape);
+            changed |= !same;
+            self.objects.extend(if same { kept } else { Some(Prepared::new(&object.shape, kept.as_ref())) });
+        }
+        if changed || before.next().is_some() {
+            self.revision += 1;
+            self.rebuild();
+        }
+    }
+
+    fn rebuild(&mut self) {
+        let all = self.objects.iter().enumerate();
+        let owned = all.flat_map(|(object, kept)| kept.primitives.iter().map(move |(patch, p)| ((object, *patch), p)));
+        let (owners, primitives): (Vec<_>, Vec<_>) = owned.map(|(owner, primitive)| (owner, primitive.clone())).unzip();
+        self.owners = owners;
+        self.aggregate = Aggregate::new(primitives);
+    }
+
+    /// A number that differs after each change of a surface.
+    pub(crate) fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// The nearest surface that the ray meets; `None` where it meets no object.
+    pub(crate) fn nearest(&self, ray: &Ray) -> Option<Pick> {
+        let hit = self.aggregate.closest_hit(ray)?;
+        let (object, patch) = *self.owners.get(hit.primitive as usize)?;
+        Some(Pick { object, patch, distance: hit.t })
+    }
+
+    /// Whether the ray meets an object other than `except`.
+    pub(crate) fn occlude(&self, ray: &Ray, except: Option<usize>) -> bool {
+        match except {
+            None => self.aggregate.occluded(ray),
+            Some(except) => {
+                let others = self.objects.iter().enumerate().filter(|(object, _)| *object != except);
+                others.flat_map(|(_, object)| &object.primitives).any(|(_, other)| other.intersect(ray).is_some())
+            }
+        }
     }
 }
 
-fn in_front(distance: f64) -> Option<f64> {
-    (distance > 0.0 && distance.is_finite()).then_some(distance)
+impl Prepared {
+    /// The primitives of a shape, with the patches of `before` that it keeps. A shape that cannot be rendered has none.
+    fn new(shape: &Shape, before: Option<&Self>) -> Self {
+        let primitives = match shape {
+            Shape::Quad { corner, edge_u, edge_v } => {
+                vec![(0, Primitive::Quad(Quad::new(*corner, *edge_u, *edge_v)))]
+            }
+            Shape::Sphere { center, radius } if *radius > 0.0 => {
+                vec![(0, Primitive::Sphere(Sphere { center: *center, radius: *radius }))]
+            }
+            Shape::Sphere { .. } => Vec::new(),
+            Shape::Plane { point, normal, u_axis } => vec![(0, Primitive::Plane(Plane::new(*point, *normal, *u_axis)))],
+            Shape::Bezier(bezier) => patches(bezier, before.map_or(&[], |before| &before.primitives)),
+        };
+        Self { shape: shape.clone(), primitives }
+    }
 }
 
-fn plane(ray: &Ray, point: DVec3, normal: DVec3) -> Option<f64> {
-    in_front((point - ray.origin).dot(normal) / ray.direction.dot(normal))
-}
-
-fn parallelogram(ray: &Ray, corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Option<f64> {
-    let (t, u, v) = solve(ray, corner, edge_u, edge_v)?;
-    (u.clamp(0.0, 1.0) == u && v.clamp(0.0, 1.0) == v).then_some(t)
-}
-
-/// Distance `t` along the ray to the plane `corner + u edge_u + v edge_v`, with `u` and `v` of the hit.
-fn solve(ray: &Ray, corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Option<(f64, f64, f64)> {
-    let normal = edge_u.cross(edge_v);
-    let t = plane(ray, corner, normal)?;
-    let local = ray.origin + t * ray.direction - corner;
-    let area_sq = normal.length_squared();
-    Some((t, local.cross(edge_v).dot(normal) / area_sq, edge_u.cross(local).dot(normal) / area_sq))
-}
-
-fn sphere(ray: &Ray, center: DVec3, radius: f64) -> Option<f64> {
-    let to_center = center - ray.origin;
-    let along = to_center.dot(ray.direction);
-    let off_sq = (to_center - along * ray.direction).length_squared();
-    let half_chord = (radius * radius - off_sq).sqrt();
-    in_front(along - half_chord).or_else(|| in_front(along + half_chord))
-}
-
-fn surface(ray: &Ray, bezier: &Bezier) -> Option<f64> {
-    let world_from_object = bezier.transform.world_from_object();
-    let patches = bezier.patches.iter().map(|net| Patch::new(net.transformed(&world_from_object)));
-    patches.filter_map(|patch| patch.intersect(ray)).map(|hit| hit.t).min_by(f64::total_cmp)
+fn patches(bezier: &Bezier, before: &[(usize, Primitive)]) -> Vec<(usize, Primitive)> {
+    let nets = bezier.placed_nets().into_iter().enumerate().filter(|(_, net)| net.is_finite());
+    let prepared = nets.map(|(index, net)| {
+        let kept = before.get(index).and_then(|(_, primitive)| match primitive {
+            Primitive::Patch(patch) if *patch.net() == net => Some(Arc::clone(patch)),
+            _ => None,
+        });
+        (index, Primitive::Patch(kept.unwrap_or_else(|| Arc::new(Patch::new(net)))))
+    });
+    prepared.collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::bezier::ControlNet;
-    use crate::scene::Transform;
+    use crate::scene::{Location, Object, Scene, Transform};
+    use glam::DVec3;
     use std::array;
-    use std::sync::Arc;
 
     // Distances of size 10 in a few operations.
     const TOLERANCE: f64 = 1e-13;
 
-    fn object(shape: Shape) -> Object {
-        Object { name: String::new(), material: String::new(), shape, body: None }
+    fn file(shapes: Vec<Shape>) -> Arc<SceneFile> {
+        let object = |shape| Object { name: String::new(), material: String::new(), shape, body: None };
+        let scene = Scene { objects: shapes.into_iter().map(object).collect(), ..Scene::default() };
+        Arc::new(SceneFile { scene, location: Location::Unsaved })
+    }
+
+    fn surfaces(shapes: Vec<Shape>) -> Surfaces {
+        let mut surfaces = Surfaces::default();
+        surfaces.update(&file(shapes));
+        surfaces
     }
 
     fn ray(x: f64, y: f64) -> Ray {
@@ -88,7 +149,12 @@ mod tests {
     fn flat_sheet() -> Shape {
         let points = array::from_fn(|i| array::from_fn(|j| DVec3::new(i as f64 / 3.0, j as f64 / 3.0, 0.0)));
         let transform = Transform { translate: DVec3::new(0.0, 0.0, 2.0), ..Transform::default() };
-        Shape::Bezier(Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None })
+        let beside = ControlNet { points }.map(|point| point + 2.0 * DVec3::X);
+        Shape::Bezier(Bezier { transform, patches: Arc::new(vec![ControlNet { points }, beside]), file: None })
+    }
+
+    fn ball(z: f64) -> Shape {
+        Shape::Sphere { center: DVec3::new(0.0, 0.0, z), radius: 1.0 }
     }
 
     #[test]
@@ -98,32 +164,52 @@ mod tests {
         let ground = Shape::Plane { point: DVec3::NEG_Z, normal: DVec3::Z, u_axis: None };
         let cases = [(quad, 10.0), (ball, 10.0 - 3.75_f64.sqrt()), (ground, 11.0), (flat_sheet(), 8.0)];
         for (shape, expected) in cases {
-            let found = distance(&object(shape.clone()), &ray(0.5, 0.0)).unwrap();
+            let found = surfaces(vec![shape.clone()]).nearest(&ray(0.5, 0.0)).unwrap().distance;
             assert!((found - expected).abs() < TOLERANCE, "{found} for {shape:?}");
         }
     }
 
     #[test]
-    fn a_ray_beside_a_shape_misses_it() {
+    fn a_ray_beside_or_beyond_a_shape_misses_it() {
         let quad = Shape::Quad { corner: DVec3::ZERO, edge_u: DVec3::X, edge_v: DVec3::Y };
-        let ball = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
-        for shape in [quad, ball, flat_sheet()] {
-            assert_eq!(distance(&object(shape.clone()), &ray(1.5, 0.5)), None, "{shape:?}");
+        for shape in [quad, ball(0.0), flat_sheet(), ball(20.0)] {
+            assert_eq!(surfaces(vec![shape.clone()]).nearest(&ray(1.5, 0.5)), None, "{shape:?}");
         }
+        assert_eq!(surfaces(vec![ball(20.0)]).nearest(&ray(0.0, 0.0)), None, "behind the ray");
     }
 
     #[test]
-    fn an_object_behind_the_ray_is_missed() {
-        let ball = object(Shape::Sphere { center: DVec3::new(0.0, 0.0, 20.0), radius: 1.0 });
-        assert_eq!(distance(&ball, &ray(0.0, 0.0)), None);
+    fn the_nearest_object_and_its_patch_are_picked() {
+        let surfaces = surfaces(vec![ball(0.0), ball(5.0), flat_sheet()]);
+        let found = |x| surfaces.nearest(&ray(x, 0.1)).map(|pick| (pick.object, pick.patch));
+        assert_eq!([found(0.1), found(2.1), found(4.0)], [Some((1, 0)), Some((2, 1)), None]);
     }
 
     #[test]
-    fn the_nearest_object_is_picked() {
-        let ball = |z| object(Shape::Sphere { center: DVec3::new(0.0, 0.0, z), radius: 1.0 });
-        let scene = Scene { objects: vec![ball(0.0), ball(5.0), ball(-5.0)], ..Scene::default() };
-        assert_eq!(nearest_object(&scene, &ray(0.1, 0.1)), Some(1));
-        assert_eq!(nearest_object(&scene, &ray(3.0, 0.0)), None);
-        assert_eq!(nearest_point(&scene, &ray(0.0, 0.0)), Some(DVec3::new(0.0, 0.0, 6.0)));
+    fn an_object_without_size_is_never_picked() {
+        let sphere = Shape::Sphere { center: DVec3::ZERO, radius: 0.0 };
+        let quad = Shape::Quad { corner: DVec3::ZERO, edge_u: DVec3::ZERO, edge_v: DVec3::Y };
+        let plane = Shape::Plane { point: DVec3::ZERO, normal: DVec3::ZERO, u_axis: None };
+        assert_eq!(surfaces(vec![sphere, quad, plane]).nearest(&ray(0.0, 0.0)), None);
+    }
+
+    #[test]
+    fn an_update_prepares_only_what_changed() {
+        let mut surfaces = surfaces(vec![flat_sheet(), ball(0.0)]);
+        let patch = |surfaces: &Surfaces, index: usize| match &surfaces.objects[0].primitives[index].1 {
+            Primitive::Patch(patch) => Arc::clone(patch),
+            other => panic!("{other:?} is no patch"),
+        };
+        let (before, revision) = ([0, 1].map(|index| patch(&surfaces, index)), surfaces.revision());
+        surfaces.update(&file(vec![flat_sheet(), ball(0.0)]));
+        assert_eq!(surfaces.revision(), revision, "equal surfaces are kept");
+        let mut moved = flat_sheet();
+        if let Shape::Bezier(bezier) = &mut moved {
+            Arc::make_mut(&mut bezier.patches)[1].points[1][1].z += 0.1;
+        }
+        surfaces.update(&file(vec![moved, ball(0.0)]));
+        assert_ne!(surfaces.revision(), revision);
+        assert!(Arc::ptr_eq(&patch(&surfaces, 0), &before[0]), "the other patch is kept");
+        assert!(!Arc::ptr_eq(&patch(&surfaces, 1), &before[1]), "the changed patch is new");
     }
 }

@@ -78,6 +78,18 @@ impl Projection {
         self.position + self.forward * depth + self.right * offset.x - self.up * offset.y
     }
 
+    /// One over the depth at which the camera ray through a film point meets a plane, given by a point and a normal; negative
+    /// where it meets the plane behind the camera, 0 on the horizon.
+    pub(crate) fn inverse_depth(&self, film: DVec2, point: DVec3, normal: DVec3) -> f64 {
+        let direction = self.unproject(film, 1.0) - self.position;
+        direction.dot(normal) / (point - self.position).dot(normal)
+    }
+
+    /// The segment from the camera to a world point: t is 1 at the point.
+    pub(crate) fn sight(&self, world: DVec3) -> Ray {
+        Ray::between(self.position, world)
+    }
+
     /// The camera ray through a film point, with a direction of length 1.
     pub(crate) fn ray(&self, film: DVec2) -> Ray {
         Ray::new(self.position, (self.unproject(film, 1.0) - self.position).normalize())

@@ -32,6 +32,13 @@ pub(crate) enum Action {
     UseView,
     MatchWindow,
     ToggleHandles,
+    ToggleXRay,
+    SelectAll,
+    SelectNone,
+    SelectRectangle,
+    SelectRow,
+    SelectColumn,
+    ToggleFalloff,
     TogglePanels,
     FullScreen,
     Palette,
@@ -71,6 +78,12 @@ const TABLE: &[Row] = &[
     (Action::ToggleHistory, "Show history", &[(CTRL, Key::H)]),
     (Action::Duplicate, "Duplicate", &[(CTRL, Key::D)]),
     (Action::Delete, "Delete", &[(NONE, Key::Delete)]),
+    (Action::SelectNone, "Select no control points", &[(CTRL_SHIFT, Key::A)]),
+    (Action::SelectAll, "Select all of the patch, then of the object", &[(CTRL, Key::A)]),
+    (Action::SelectRectangle, "Select by rectangle", &[(NONE, Key::B)]),
+    (Action::SelectRow, "Select row, then the whole strip", &[(NONE, Key::I)]),
+    (Action::SelectColumn, "Select column, then the whole strip", &[(NONE, Key::J)]),
+    (Action::ToggleFalloff, "Soft selection", &[(NONE, Key::O)]),
     (Action::TogglePause, "Pause or resume", &[(NONE, Key::Space)]),
     (Action::Restart, "Restart rendering", &[(NONE, Key::R)]),
     (Action::Fit, "Fit picture", &[(NONE, Key::F), (CTRL, Key::Num0)]),
@@ -93,6 +106,7 @@ const TABLE: &[Row] = &[
     (Action::UseView, "Use as camera", &[]),
     (Action::MatchWindow, "Match window", &[(NONE, Key::W)]),
     (Action::ToggleHandles, "Show handles", &[(NONE, Key::H)]),
+    (Action::ToggleXRay, "Show hidden handles (X-ray)", &[(Modifiers::ALT, Key::Z)]),
     (Action::TogglePanels, "Show panels", &[(CTRL, Key::B)]),
     (Action::FullScreen, "Full screen", &[(NONE, Key::F11)]),
     (Action::Palette, "Find a command…", &[(CTRL, Key::P)]),
@@ -125,7 +139,7 @@ impl Action {
 fn blocked_by(action: Action, modifiers: Modifiers, key: Key) -> BlockedBy {
     let function_key = matches!(key, Key::F1 | Key::F11);
     match action {
-        Action::Undo | Action::Redo => BlockedBy::Text,
+        Action::Undo | Action::Redo | Action::SelectAll | Action::SelectNone => BlockedBy::Text,
         _ if modifiers.command || function_key => BlockedBy::Nothing,
         _ => BlockedBy::AnyFocus,
     }
@@ -169,6 +183,7 @@ mod tests {
         let row = |wanted| TABLE.iter().position(|(action, ..)| *action == wanted).unwrap();
         assert!(row(Action::SaveAs) < row(Action::Save), "consume_shortcut ignores Shift");
         assert!(row(Action::ExportSurface) < row(Action::Export), "consume_shortcut ignores Shift");
+        assert!(row(Action::SelectNone) < row(Action::SelectAll), "consume_shortcut ignores Shift");
         assert!(row(Action::Redo) < row(Action::Undo), "consume_shortcut ignores Shift");
         assert!(row(Action::Darker) < row(Action::Brighter), "consume_shortcut ignores Shift");
     }

@@ -47,6 +47,8 @@ pub(crate) enum AppCommand {
     Target(Option<f64>),
     /// Ask for a file to export the surface to, with this many quads along each side of a patch.
     ExportSurface(NonZeroUsize),
+    /// Snap to a grid with this step, scene units; `None` for the automatic step.
+    Grid(Option<f64>),
     /// Choose the light or the dark theme.
     Theme(ThemePreference),
 }

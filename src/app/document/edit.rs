@@ -29,6 +29,8 @@ pub(crate) enum Edit {
     Texture(usize, Texture),
     /// Moves handles by a vector in world space.
     Move(Vec<Handle>, DVec3),
+    /// Moves each handle by its own vector in world space.
+    MoveEach(Vec<(Handle, DVec3)>),
     /// Places a control point of the object at this index, with the control points welded to it, object space.
     Place(usize, PointIndex, DVec3),
     /// Appends an object.
@@ -59,12 +61,8 @@ impl Edit {
             Self::Material(index, _) => ("edit material", *index),
             Self::Light(index, _) => ("edit light", *index),
             Self::Texture(index, _) => ("edit texture", *index),
-            Self::Move(handles, _) => match handles.first() {
-                Some(Handle::Point { object, .. }) => ("move control point", *object),
-                Some(Handle::Object(object)) => ("move object", *object),
-                Some(Handle::Light(light)) => ("move light", *light),
-                None => ("move", 0),
-            },
+            Self::Move(handles, _) => move_key(handles.first().copied()),
+            Self::MoveEach(ways) => move_key(ways.first().map(|(handle, _)| *handle)),
             Self::Place(object, ..) => ("move control point", *object),
             Self::AddObject(_) => ("add object", 0),
             Self::AddMaterial(_) => ("add material", 0),
@@ -116,6 +114,7 @@ impl Edit {
             Self::Light(index, light) => replace(&mut scene.lights, index, light),
             Self::Texture(index, texture) => replace_texture(scene, index, texture),
             Self::Move(handles, by) => handles.into_iter().for_each(|handle| handle.translate(scene, by)),
+            Self::MoveEach(ways) => ways.into_iter().for_each(|(handle, by)| handle.translate(scene, by)),
             Self::Place(object, point, to) => handles::place(scene, object, point, to),
             Self::AddObject(object) => scene.objects.push(object),
             Self::AddMaterial(material) => scene.materials.push(material),
@@ -123,6 +122,15 @@ impl Edit {
             Self::AddTexture(texture) => scene.textures.push(texture),
             Self::Remove(item) => remove(scene, item),
         }
+    }
+}
+
+fn move_key(first: Option<Handle>) -> EditKey {
+    match first {
+        Some(Handle::Point { object, .. }) => ("move control point", object),
+        Some(Handle::Object(object)) => ("move object", object),
+        Some(Handle::Light(light)) => ("move light", light),
+        None => ("move", 0),
     }
 }
 

@@ -83,17 +83,16 @@ impl Handle {
     }
 }
 
-/// The handles to draw: every light, the selected object and its control points. Welded control points have one handle.
-pub(crate) fn visible(scene: &Scene, selected: Item) -> Vec<Handle> {
+/// The handles to draw: every light, the selected object and its control points. Each group of welded control points has one
+/// handle, of its first point.
+pub(crate) fn visible(scene: &Scene, selected: Item, welds: &[BTreeSet<PointIndex>]) -> Vec<Handle> {
     let mut handles: Vec<Handle> = (0..scene.lights.len()).map(Handle::Light).collect();
     if let Item::Object(object) = selected {
         if object < scene.objects.len() {
             handles.push(Handle::Object(object));
         }
-        if let Some(bezier) = bezier(scene, object) {
-            let distinct = weld_groups(bezier).into_iter().filter_map(|group| group.into_iter().next());
-            handles.extend(distinct.map(|point| Handle::Point { object, point }));
-        }
+        let distinct = welds.iter().filter_map(|group| group.first());
+        handles.extend(distinct.map(|&point| Handle::Point { object, point }));
     }
     handles
 }
@@ -120,7 +119,7 @@ pub(crate) fn control_points(bezier: &Bezier) -> impl Iterator<Item = (PointInde
 }
 
 /// The control points, grouped by position.
-fn weld_groups(bezier: &Bezier) -> Vec<BTreeSet<PointIndex>> {
+pub(super) fn weld_groups(bezier: &Bezier) -> Vec<BTreeSet<PointIndex>> {
     let size = control_points(bezier).map(|(_, at)| at.abs().max_element()).fold(0.0, f64::max);
     let tolerance = WELD_TOLERANCE * size;
     let mut sorted: Vec<_> = control_points(bezier).collect();
@@ -248,7 +247,8 @@ mod tests {
     #[test]
     fn a_moved_control_point_leaves_its_neighbours_in_place() {
         let mut scene = scene();
-        let others: Vec<_> = visible(&scene, Item::Object(0))
+        let groups = weld_groups(bezier(&scene, 0).unwrap());
+        let others: Vec<_> = visible(&scene, Item::Object(0), &groups)
             .into_iter()
             .filter(|handle| matches!(handle, Handle::Point { point, .. } if *point != PointIndex::default()))
             .map(|handle| (handle, handle.position(&scene)))
@@ -273,7 +273,7 @@ mod tests {
     #[test]
     fn the_seam_of_two_patches_is_one_row_of_handles() {
         let scene = scene();
-        let points = visible(&scene, Item::Object(0)).len() - 1;
+        let points = weld_groups(bezier(&scene, 0).unwrap()).len();
         assert_eq!(points, 2 * 16 - 4, "the patches share four positions");
         let seam = PointIndex { patch: 0, i: 3, j: 1 };
         let expected = BTreeSet::from([seam, PointIndex { patch: 1, i: 0, j: 1 }]);

@@ -5,6 +5,8 @@
 //! | `selection` | the selected item and control points |
 //! | `names` | names that are unique among the items of a kind |
 //! | `handles` | the draggable points of a scene: which exist, where they lie, how they move |
+//! | `welds` | [`Welds`]: the welded control points of an object |
+//! | `growth` | sets of control points to select: all, rows, columns |
 //! | `placement` | where new items go |
 //! | `edit` | [`Edit`]: every change of a scene, as data |
 //! | `edit_name` | the names of edits in menus and in the history |
@@ -16,6 +18,7 @@
 
 mod edit;
 mod edit_name;
+mod growth;
 pub(crate) mod handles;
 mod history;
 pub(crate) mod kinds;
@@ -25,9 +28,12 @@ mod placement;
 mod selection;
 mod stamp;
 mod state;
+mod welds;
 
 pub(crate) use edit::{Edit, texture_names, user_of};
+pub(crate) use growth::{Direction, all_points, with_lines};
 pub(crate) use handles::Handle;
 pub(crate) use selection::{Item, PointIndex, Selection};
 pub(crate) use stamp::Stamp;
 pub(crate) use state::Document;
+pub(crate) use welds::Welds;

@@ -2,7 +2,7 @@
 
 use super::state::Editor;
 use crate::app::commands::{Action, AppCommand, Next, Purpose};
-use crate::app::document::{Edit, Item, new_items, user_of};
+use crate::app::document::{Direction, Edit, Item, new_items, user_of};
 use crate::app::shell::{Dialog, Palette};
 use crate::scene::Film;
 use egui::{Context, ViewportCommand};
@@ -23,7 +23,7 @@ impl Editor {
         match command {
             AppCommand::Do(action) => self.act(ctx, action),
             AppCommand::Edit(edit) => self.edit(edit),
-            AppCommand::Select(selection) => self.document.selection = selection.within(self.document.scene()),
+            AppCommand::Select(selection) => self.select(selection),
             AppCommand::View(camera) => self.show_camera(camera),
             AppCommand::AddFrom(purpose) => self.ask_for_path(ctx, purpose),
             AppCommand::Drop(path) => self.drop_file(ctx, path),
@@ -38,6 +38,7 @@ impl Editor {
             AppCommand::CloseDialog => self.close_dialog(),
             AppCommand::CloseHint => self.show_hint = false,
             AppCommand::ExportSurface(steps) => self.ask_for_surface_path(ctx, steps),
+            AppCommand::Grid(step) => self.canvas.grasp.grid = step,
             AppCommand::Theme(theme) => ctx.set_theme(theme),
             AppCommand::Target(target) => self.rendering.set_target(target),
         }
@@ -71,6 +72,13 @@ impl Editor {
             Action::UseView => self.use_view(),
             Action::MatchWindow => self.canvas.matches_window = !self.canvas.matches_window,
             Action::ToggleHandles => self.canvas.show_handles = !self.canvas.show_handles,
+            Action::ToggleXRay => self.canvas.sight.x_ray = !self.canvas.sight.x_ray,
+            Action::SelectAll => self.select_all(),
+            Action::SelectNone => self.select_none(),
+            Action::SelectRectangle => self.select_rectangle(),
+            Action::SelectRow => self.select_lines(Direction::Row),
+            Action::SelectColumn => self.select_lines(Direction::Column),
+            Action::ToggleFalloff => self.canvas.grasp.falloff.on = !self.canvas.grasp.falloff.on,
             Action::TogglePanels => self.show_panels = !self.show_panels,
             Action::FullScreen => toggle_full_screen(ctx),
             Action::Palette => self.dialog = Some(Dialog::Palette(Palette::default())),

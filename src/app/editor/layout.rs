@@ -62,7 +62,8 @@ impl Editor {
             self.apply(ui.ctx(), command);
         }
         let (is_down, time) = ui.input(|input| (input.pointer.any_down(), input.time));
-        if !is_down && !self.canvas.navigation.is_wheel_turning(time) {
+        let canvas = &self.canvas;
+        if !is_down && !canvas.navigation.is_wheel_turning(time) && !canvas.grasp.is_nudging(time) {
             self.end_gesture();
         }
         self.match_window(ui.ctx());
@@ -70,11 +71,15 @@ impl Editor {
     }
 
     fn bars_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+        let canvas = &self.canvas;
         let visible = Visibility {
-            navigate: self.canvas.navigation.always,
+            navigate: canvas.navigation.always,
             look_around: self.viewpoint.looks_around(),
-            match_window: self.canvas.matches_window,
-            handles: self.canvas.show_handles,
+            match_window: canvas.matches_window,
+            handles: canvas.show_handles,
+            x_ray: canvas.sight.x_ray,
+            falloff: canvas.grasp.falloff.on,
+            grid: canvas.grasp.grid,
             panels: self.show_panels,
             history: self.show_history,
         };

@@ -8,6 +8,7 @@
 //! | `scenes` | opens, saves and leaves scenes |
 //! | `recovery` | keeps unsaved changes, and recovers those of former windows |
 //! | `chosen_path` | uses a chosen path: open, save, export, add |
+//! | `selecting` | selects control points |
 //! | `apply` | the one place that carries out commands |
 //! | `layout` | draws the content, then carries out the commands that its parts push |
 
@@ -17,6 +18,7 @@ mod layout;
 mod path_request;
 mod recovery;
 mod scenes;
+mod selecting;
 mod state;
 mod views;
 

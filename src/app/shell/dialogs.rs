@@ -130,11 +130,17 @@ fn surface_ui(ui: &mut Ui, name: &str, steps: &mut usize, commands: &mut Vec<App
 }
 
 fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-    const MOUSE: [(&str, &str); 11] = [
+    const MOUSE: [(&str, &str); 17] = [
         ("Drag a handle", "moves the handle in the plane that faces the camera"),
-        ("Drag with X, Y or Z held", "moves the handle along this axis of the world"),
-        ("Esc during a drag", "reverts the drag"),
+        ("Drag an arrow or a square", "moves the selection along an axis or the surface normal, or in a plane"),
+        ("Drag with X, Y, Z or N held", "moves along this axis of the world, or along the surface normal"),
+        ("Drag with Ctrl held", "snaps to the grid of the Select menu"),
+        ("Wheel during a drag", "changes the radius of soft selection"),
+        ("Esc", "reverts the drag in progress, or else selects no control point"),
+        ("Arrow keys", "move the selection by one screen point, with Shift by ten"),
+        ("Page up, Page down", "move the selection away or nearer, as do Ctrl+Up and Ctrl+Down"),
         ("Click, Shift+click", "selects a control point, adds it to the selection"),
+        ("Ctrl+drag beside the handles", "selects control points by a rectangle, with Shift adds them"),
         ("Click in the picture", "selects the nearest object"),
         ("Wheel", "zooms about the pointer"),
         ("Drag the picture", "pans; the middle and right mouse buttons pan over handles too"),

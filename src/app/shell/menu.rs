@@ -1,5 +1,6 @@
 //! The menu bar, with buttons for frequent actions.
 
+use crate::app::canvas::{automatic_step, steps_around};
 use crate::app::commands::{Action, AppCommand, Next};
 use crate::app::document::Document;
 use crate::app::viewpoint::{NamedView, Side};
@@ -13,6 +14,11 @@ pub(crate) struct Visibility {
     pub(crate) look_around: bool,
     pub(crate) match_window: bool,
     pub(crate) handles: bool,
+    pub(crate) x_ray: bool,
+    /// Whether soft selection is on.
+    pub(crate) falloff: bool,
+    /// The step of the snapping grid, scene units; `None` for the automatic step.
+    pub(crate) grid: Option<f64>,
     pub(crate) panels: bool,
     pub(crate) history: bool,
 }
@@ -28,6 +34,7 @@ pub(crate) fn menu_ui(
     MenuBar::new().ui(ui, |ui| {
         ui.menu_button("File", |ui| file_ui(ui, commands));
         ui.menu_button("Edit", |ui| edit_ui(ui, document, visible, commands));
+        ui.menu_button("Select", |ui| select_ui(ui, document, visible, commands));
         ui.menu_button("View", |ui| view_ui(ui, visible, commands));
         ui.menu_button("Render", |ui| {
             let pause = if paused { "Resume" } else { "Pause" };
@@ -91,6 +98,7 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
         (Action::LookAround, visible.look_around),
         (Action::MatchWindow, visible.match_window),
         (Action::ToggleHandles, visible.handles),
+        (Action::ToggleXRay, visible.x_ray),
         (Action::TogglePanels, visible.panels),
     ] {
         toggle_ui(ui, action, on, commands);
@@ -105,6 +113,41 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
     ] {
         if ui.radio(current == theme, label).clicked() {
             commands.push(AppCommand::Theme(theme));
+        }
+    }
+}
+
+/// Selection of control points, and how moves treat them.
+fn select_ui(ui: &mut Ui, document: &Document, visible: Visibility, commands: &mut Vec<AppCommand>) {
+    let has_points = document.selection.bezier(document.scene()).is_some();
+    let some = !document.selection.points.is_empty();
+    for (action, enabled) in [
+        (Action::SelectAll, has_points),
+        (Action::SelectNone, some),
+        (Action::SelectRectangle, has_points && visible.handles),
+        (Action::SelectRow, some),
+        (Action::SelectColumn, some),
+    ] {
+        item_ui(ui, action, action.label(), enabled, commands);
+    }
+    ui.separator();
+    toggle_ui(ui, Action::ToggleFalloff, visible.falloff, commands);
+    ui.menu_button("Snapping grid", |ui| grid_ui(ui, document, visible.grid, commands));
+}
+
+/// The step of the grid that drags with Ctrl snap to.
+fn grid_ui(ui: &mut Ui, document: &Document, chosen: Option<f64>, commands: &mut Vec<AppCommand>) {
+    let camera = &document.scene().camera;
+    let automatic = format!("Automatic, now {}", automatic_step(camera));
+    if ui.radio(chosen.is_none(), automatic).clicked() {
+        commands.push(AppCommand::Grid(None));
+    }
+    let mut steps = steps_around(camera).to_vec();
+    // The chosen step stays in the list when the camera has moved.
+    steps.extend(chosen.filter(|step| !steps.contains(step)));
+    for step in steps {
+        if ui.radio(chosen == Some(step), step.to_string()).clicked() {
+            commands.push(AppCommand::Grid(Some(step)));
         }
     }
 }

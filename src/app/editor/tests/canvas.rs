@@ -1,7 +1,7 @@
 use super::*;
 use crate::app::canvas::{Projection, View};
-use crate::app::document::{Handle, Item, PointIndex, Selection, handles};
-use egui::{Event, MouseWheelSource, MouseWheelUnit, Pos2, TouchPhase, Vec2, vec2};
+use crate::app::document::PointIndex;
+
 use glam::DVec3;
 
 const POINT: &str = "Control point P[1][2]";
@@ -13,17 +13,6 @@ fn handle(ui: &Ui) -> Handle {
 
 fn world(ui: &Ui) -> DVec3 {
     handle(ui).position(scene(ui)).unwrap()
-}
-
-fn drag(ui: &mut Ui, from: Pos2, way: Vec2, steps: u8) {
-    ui.hover_at(from);
-    ui.run_steps(1);
-    ui.drag_at(from);
-    ui.run_steps(1);
-    for step in 1..=steps {
-        ui.hover_at(from + way * f32::from(step) / f32::from(steps));
-        ui.run_steps(1);
-    }
 }
 
 #[test]
@@ -151,7 +140,7 @@ fn welded_control_points_move_together() {
     // A corner of the first patch, which its neighbours share.
     let corner = Handle::Point { object, point: PointIndex::default() };
     let start = corner.position(scene(&ui)).unwrap();
-    for handle in handles::visible(scene(&ui), Item::Object(object)) {
+    for handle in point_handles(&ui) {
         before.push((handle, handle.position(scene(&ui)).unwrap()));
     }
     let label = before.iter().find(|(handle, at)| matches!(handle, Handle::Point { .. }) && *at == start).unwrap().0;
@@ -159,7 +148,7 @@ fn welded_control_points_move_together() {
     drag(&mut ui, from, vec2(15.0, -15.0), 2);
     ui.drop_at(from + vec2(15.0, -15.0));
     ui.run_steps(2);
-    let after = handles::visible(scene(&ui), Item::Object(object));
+    let after = point_handles(&ui);
     assert_eq!(after.len(), before.len(), "welded points stay together");
 }
 
@@ -187,14 +176,7 @@ fn the_wheel_zooms_to_the_pointer_and_f_fits() {
     let film = before.to_film(cursor);
     ui.hover_at(cursor);
     ui.run_steps(1);
-    ui.event(Event::MouseWheel {
-        unit: MouseWheelUnit::Line,
-        delta: vec2(0.0, 3.0),
-        phase: TouchPhase::Move,
-        source: MouseWheelSource::Unknown,
-        modifiers: Modifiers::NONE,
-    });
-    ui.run_steps(20);
+    turn_wheel(&mut ui, 3.0);
     let after = ui.state().canvas.transform.unwrap();
     assert!(after.scale > 1.2 * before.scale, "{} is not larger than {}", after.scale, before.scale);
     // f32 coordinates of size 1000, over some twenty frames of smooth scrolling.

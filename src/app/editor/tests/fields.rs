@@ -1,5 +1,5 @@
 use super::*;
-use crate::app::document::{Item, PointIndex, handles};
+use crate::app::document::{Item, PointIndex, Welds, handles};
 use crate::math::Rgb;
 use crate::scene::{Emitter, Shape};
 
@@ -12,8 +12,8 @@ fn strength(ui: &Ui) -> Rgb {
 fn a_typed_coordinate_keeps_a_seam_closed() {
     let mut ui = open("cardioid");
     let seams = |ui: &Ui| {
-        let Item::Object(object) = ui.state().document.selection.item else { panic!("a Bezier object is selected") };
-        handles::visible(scene(ui), Item::Object(object)).len()
+        let bezier = ui.state().document.selection.bezier(scene(ui));
+        Welds::of(bezier.expect("a Bezier object is selected")).groups().len()
     };
     let before = seams(&ui);
     // All 16 rows are visible.

@@ -4,6 +4,8 @@
 //! |---|---|
 //! | `canvas` | selecting and dragging handles; zoom and pan |
 //! | `navigation` | orbit, pan and dolly of the camera |
+//! | `grasp` | the gizmo, snapping, soft selection, arrow keys, hidden handles |
+//! | `selecting` | rectangles, all and none, rows and columns |
 //! | `frames` | frames, the texture, progress, failures |
 //! | `files` | opening, saving, leaving scenes |
 //! | `drops` | dropped files |
@@ -20,13 +22,15 @@ mod exports;
 mod fields;
 mod files;
 mod frames;
+mod grasp;
 mod history;
 mod keys;
 mod navigation;
 mod panels;
 mod recovery;
+mod selecting;
 
-use crate::app::document::{Item, Selection};
+use crate::app::document::{Handle, Item, Selection, Welds, handles};
 use crate::app::editor::Editor;
 use crate::app::files::{Chooser, Request};
 use crate::app::shell::Dialog;
@@ -36,7 +40,7 @@ use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::scene::{Scene, SceneFile, Shape};
 use egui::accesskit::Role;
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, TouchPhase, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, Node};
 use std::path::PathBuf;
@@ -190,4 +194,48 @@ fn first_object(ui: &Ui, kind: impl Fn(&Shape) -> bool) -> usize {
 fn edit(ui: &mut Ui) {
     type_number(ui, "Corner x", "-0.9");
     assert!(ui.state().document.is_dirty(), "the scene has unsaved changes");
+}
+
+/// Presses the pointer at `from` and moves it by `way` in steps; the button stays down.
+fn drag(ui: &mut Ui, from: Pos2, way: Vec2, steps: u8) {
+    ui.hover_at(from);
+    ui.run_steps(1);
+    ui.drag_at(from);
+    ui.run_steps(1);
+    for step in 1..=steps {
+        ui.hover_at(from + way * f32::from(step) / f32::from(steps));
+        ui.run_steps(1);
+    }
+}
+
+/// Drags the pointer from `from` by `way`.
+fn drag_and_drop(ui: &mut Ui, from: Pos2, way: Vec2) {
+    drag(ui, from, way, 4);
+    ui.drop_at(from + way);
+    ui.run_steps(2);
+}
+
+/// Holds modifier keys down from now on.
+fn hold(ui: &mut Ui, modifiers: Modifiers) {
+    ui.event(Event::ModifiersChanged(modifiers));
+    ui.run_steps(1);
+}
+
+/// Turns the wheel by lines.
+fn turn_wheel(ui: &mut Ui, lines: f32) {
+    ui.event(Event::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        delta: vec2(0.0, lines),
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Unknown,
+        modifiers: Modifiers::NONE,
+    });
+    ui.run_steps(20);
+}
+
+/// The handles of the selected object: one for each group of welded control points.
+fn point_handles(ui: &Ui) -> Vec<Handle> {
+    let selection = &ui.state().document.selection;
+    let welds = Welds::of(selection.bezier(scene(ui)).unwrap());
+    handles::visible(scene(ui), selection.item, welds.groups())
 }

@@ -1,0 +1,59 @@
+//! The welded control points of an object, kept while its patches stay the same.
+
+use super::handles::weld_groups;
+use super::selection::PointIndex;
+use crate::geometry::bezier::ControlNet;
+use crate::scene::Bezier;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// The control points of an object in groups of equal position.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Welds {
+    /// The patches that the groups belong to.
+    patches: Option<Arc<Vec<ControlNet>>>,
+    groups: Vec<BTreeSet<PointIndex>>,
+    group_of: BTreeMap<PointIndex, usize>,
+}
+
+impl Welds {
+    /// The groups of an object's control points.
+    pub(crate) fn of(bezier: &Bezier) -> Self {
+        let mut welds = Self::default();
+        welds.update(Some(bezier));
+        welds
+    }
+
+    /// Finds the groups again where the patches have changed; no groups without patches.
+    pub(crate) fn update(&mut self, bezier: Option<&Bezier>) {
+        let Some(bezier) = bezier else {
+            *self = Self::default();
+            return;
+        };
+        if self.patches.as_ref().is_some_and(|kept| Arc::ptr_eq(kept, &bezier.patches)) {
+            return;
+        }
+        self.patches = Some(Arc::clone(&bezier.patches));
+        self.groups = weld_groups(bezier);
+        let members =
+            self.groups.iter().enumerate().flat_map(|(group, points)| points.iter().map(move |p| (*p, group)));
+        self.group_of = members.collect();
+    }
+
+    /// All groups.
+    pub(crate) fn groups(&self) -> &[BTreeSet<PointIndex>] {
+        &self.groups
+    }
+
+    /// The control points at the position of `point`, including itself.
+    pub(crate) fn with(&self, point: PointIndex) -> impl Iterator<Item = PointIndex> + '_ {
+        let group = self.group_of.get(&point).and_then(|group| self.groups.get(*group));
+        let alone = group.is_none().then_some(point);
+        group.into_iter().flatten().copied().chain(alone)
+    }
+
+    /// The control points at the positions of `points`.
+    pub(crate) fn all_with(&self, points: &BTreeSet<PointIndex>) -> BTreeSet<PointIndex> {
+        points.iter().flat_map(|point| self.with(*point)).collect()
+    }
+}
