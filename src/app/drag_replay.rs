@@ -8,7 +8,7 @@ use super::window::Window;
 use crate::engine::Frame as Picture;
 use crate::scene::SceneFile;
 use eframe::{App, Frame};
-use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2, ViewportCommand};
+use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2, ViewportBuilder, ViewportCommand};
 use std::f32::consts::TAU;
 use std::mem::take;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -42,7 +42,8 @@ pub struct WindowFrame {
 pub fn replay_drag(scene: SceneFile, size: [f32; 2], seconds: f32) -> Result<Vec<WindowFrame>, AppError> {
     let frames = Arc::new(Mutex::new(Vec::new()));
     let recorded = Arc::clone(&frames);
-    open_window(scene, size, move |window| Box::new(Replay::new(window, seconds, frames)))?;
+    let viewport = ViewportBuilder::default().with_inner_size(size);
+    open_window(scene, viewport, None, move |window| Box::new(Replay::new(window, seconds, frames)))?;
     Ok(take(&mut *recorded.lock().unwrap_or_else(PoisonError::into_inner)))
 }
 

@@ -12,7 +12,7 @@
 //! | `document` | the edited scene: selection, handles, edits, undo |
 //! | `viewpoint` | the camera that the window shows the scene with: orbit, framing, looking around |
 //! | `commands` | every request of the user, as data |
-//! | `keeping` | what outlives the window: unsaved changes |
+//! | `keeping` | what outlives the window: unsaved changes, recent files, preferences; files that other programs change |
 //! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |
 //! | `canvas` | the picture with its handles: zoom, pick, drag |
 //! | `panels` | the side panels: outline, properties, progress |

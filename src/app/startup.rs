@@ -1,6 +1,6 @@
 //! Opens the window on a scene, or explains why no window can open.
 
-use super::keeping::Folders;
+use super::keeping::{Folders, LoadedPreferences, WindowPlace};
 use super::window::Window;
 use crate::engine::EngineError;
 use crate::scene::{Location, SceneFile};
@@ -51,7 +51,12 @@ pub enum AppError {
 /// # Errors
 /// Returns an error when no window can open, or the engine cannot start.
 pub fn run(scene: SceneFile) -> Result<(), AppError> {
-    open_window(scene, SIZE, |window| Box::new(window))
+    let kept = Folders::of_user().map(|folders| {
+        let loaded = LoadedPreferences::read(&folders.preferences());
+        (folders, loaded)
+    });
+    let place = kept.as_ref().and_then(|(_, loaded)| loaded.preferences.window);
+    open_window(scene, placed(place), kept, |window| Box::new(window))
 }
 
 /// A sentence with the command line that renders the scene without a window.
@@ -65,13 +70,15 @@ fn has_display() -> bool {
         || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(set)
 }
 
-/// Opens a window of this size in points on a scene, with the application that `app` makes of the window.
+/// Opens a window at this place on a scene, with the application that `app` makes of the window. Without `kept`, the window neither reads nor
+/// writes the user's folders.
 ///
 /// # Errors
 /// Returns an error when no window can open, or the engine cannot start.
 pub(crate) fn open_window(
     file: SceneFile,
-    size: [f32; 2],
+    viewport: ViewportBuilder,
+    kept: Option<(Folders, LoadedPreferences)>,
     app: impl FnOnce(Window) -> Box<dyn App> + 'static,
 ) -> Result<(), AppError> {
     let render = render_line(&file.location);
@@ -80,27 +87,35 @@ pub(crate) fn open_window(
     }
     let shown = Arc::new(AtomicBool::new(false));
     let created = Arc::clone(&shown);
-    let options = eframe::NativeOptions {
-        viewport: ViewportBuilder::default()
-            .with_title("patchlight")
-            .with_app_id("patchlight")
-            .with_inner_size(size)
-            .with_min_inner_size([640.0, 400.0])
-            .with_drag_and_drop(true),
-        ..Default::default()
-    };
+    let viewport = viewport
+        .with_title("patchlight")
+        .with_app_id("patchlight")
+        .with_min_inner_size([640.0, 400.0])
+        .with_drag_and_drop(true);
+    let options = eframe::NativeOptions { viewport, ..Default::default() };
     let run = move || {
         eframe::run_native(
             "patchlight",
             options,
             Box::new(move |creation| {
-                let window = Window::new(creation, file, Folders::of_user())?;
+                let window = Window::new(creation, file, kept)?;
                 created.store(true, Ordering::Relaxed);
                 Ok(app(window))
             }),
         )
     };
     quietly_until(&shown, run, |reason| AppError::NoWindow { reason, render: render.clone() })
+}
+
+/// A window at the place of the window before; `None` leaves the place to the desktop.
+fn placed(place: Option<WindowPlace>) -> ViewportBuilder {
+    let Some(place) = place else { return ViewportBuilder::default().with_inner_size(SIZE) };
+    let window =
+        ViewportBuilder::default().with_inner_size([place.width, place.height]).with_maximized(place.maximized);
+    match place.corner {
+        Some(corner) => window.with_position(corner),
+        None => window,
+    }
 }
 
 /// Runs `run`. The window system's crates panic when a library is missing, so a panic before `shown` is set becomes an

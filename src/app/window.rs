@@ -2,7 +2,7 @@
 
 use crate::app::commands::{AppCommand, Next};
 use crate::app::editor::Editor;
-use crate::app::keeping::Folders;
+use crate::app::keeping::{Folders, LoadedPreferences};
 use crate::app::keyboard;
 use crate::app::theme;
 use crate::engine::{Engine, EngineError, EngineSettings};
@@ -18,22 +18,22 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Starts an engine and sends it the scene. Without folders, nothing outlives the window but the files that the user saves.
+    /// Starts an engine and sends it the scene. Without `kept`, nothing outlives the window but the files that the user saves.
     ///
     /// # Errors
     /// Returns an error when the engine's thread or thread pool cannot start.
     pub(crate) fn new(
         creation: &CreationContext<'_>,
         file: SceneFile,
-        folders: Option<Folders>,
+        kept: Option<(Folders, LoadedPreferences)>,
     ) -> Result<Self, EngineError> {
         theme::install(&creation.egui_ctx);
         keyboard::install(&creation.egui_ctx);
         let ctx = creation.egui_ctx.clone();
         let engine = Engine::start(EngineSettings::default(), move || ctx.request_repaint())?;
         let mut editor = Editor::new(file);
-        if let Some(folders) = folders {
-            editor.keep_in(&creation.egui_ctx, &folders);
+        if let Some((folders, loaded)) = kept {
+            editor.keep_in(&creation.egui_ctx, &folders, loaded);
         }
         Ok(Self { editor, engine, title: String::new() })
     }

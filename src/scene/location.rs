@@ -6,8 +6,10 @@ use crate::{
 use image::{DynamicImage, ImageDecoder, ImageError, ImageReader};
 use std::{
     borrow::Cow,
+    fs,
     io::{self, Cursor},
     path::{Path, PathBuf},
+    time::SystemTime,
 };
 
 /// The greatest number of texels of a texture: 8192 x 8192, which take 800 MB while they are decoded.
@@ -81,6 +83,13 @@ impl Location {
 
     fn read_bytes(&self, relative: &str) -> Result<Cow<'static, [u8]>, String> {
         self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))
+    }
+
+    /// The time of the last change and the length in bytes of a file that the scene names; `None` for a file inside the program, and where
+    /// there is no such file.
+    pub fn state_of(&self, relative: &str) -> Option<(SystemTime, u64)> {
+        let metadata = fs::metadata(self.path_on_disk(relative)?).ok()?;
+        Some((metadata.modified().ok()?, metadata.len()))
     }
 
     /// The path of a file that the scene names; `None` for a file inside the program.

@@ -20,7 +20,7 @@ const AROUND_VIEW: f64 = 2.0;
 
 /// Prepares the world of a scene; paths in the scene are relative to `location`. The world shares unchanged parts with
 /// `previous`: a moved control point rebuilds the tree of its patch and refits the BVH; a new material or light
-/// rebuilds neither; an image is decoded once.
+/// rebuilds neither; an image is decoded once, and again when its file was written anew.
 ///
 /// # Errors
 ///
@@ -261,7 +261,7 @@ impl Textures<'_> {
             return Err(PrepareError::UnknownName { user: user.to_owned(), kind: "texture", name });
         };
         let linear = texture::is_linear(entry.encoding, is_map);
-        let key = TextureKey { location: self.location.clone(), file: entry.file.clone(), linear };
+        let key = TextureKey::new(self.location, &entry.file, linear);
         let known = self.previous.map_or(&[][..], |world| &world.textures);
         if let Some((_, image)) = self.decoded.iter().chain(known).find(|(k, _)| *k == key) {
             let image = image.clone();

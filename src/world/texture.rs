@@ -2,6 +2,7 @@ use super::PrepareError;
 use crate::math::Rgb;
 use crate::scene::{Encoding, Location};
 use glam::DVec2;
+use std::time::SystemTime;
 
 /// A decoded texture, repeated in both directions.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,12 +25,19 @@ enum Texels {
 /// The identity of a decoded image.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextureKey {
-    pub(super) location: Location,
-    pub(super) file: String,
-    pub(super) linear: bool,
+    location: Location,
+    file: String,
+    /// The time of the last change and the length of the file: another program may write the file anew.
+    state: Option<(SystemTime, u64)>,
+    linear: bool,
 }
 
 impl TextureKey {
+    /// The image in this file as it is now.
+    pub(super) fn new(location: &Location, file: &str, linear: bool) -> Self {
+        Self { location: location.clone(), file: file.to_owned(), state: location.state_of(file), linear }
+    }
+
     /// Reads and decodes the file.
     ///
     /// # Errors
@@ -123,10 +131,7 @@ mod tests {
     fn deep_and_flat_codes_have_equal_values() {
         let folder = tempfile::tempdir().unwrap();
         let location = Location::Disk(folder.path().join("scene.toml"));
-        let decode = |file: &str, linear| {
-            let key = TextureKey { location: location.clone(), file: file.to_owned(), linear };
-            key.decode().unwrap()
-        };
+        let decode = |file: &str, linear| TextureKey::new(&location, file, linear).decode().unwrap();
         let codes: Vec<u8> = vec![0, 1, 17, 100, 200, 255];
         image::RgbImage::from_raw(2, 1, codes.clone()).unwrap().save(folder.path().join("flat.png")).unwrap();
         let wide = codes.iter().map(|&code| 257 * u16::from(code)).collect();
@@ -144,5 +149,18 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_file_that_was_written_anew_is_another_image() {
+        let folder = tempfile::tempdir().unwrap();
+        let location = Location::Disk(folder.path().join("scene.toml"));
+        let write = |size| image::RgbImage::new(size, size).save(folder.path().join("a.png")).unwrap();
+        let key = || TextureKey::new(&location, "a.png", false);
+        write(3);
+        let before = key();
+        assert_eq!(before, key(), "an unchanged file");
+        write(300);
+        assert_ne!(before, key());
     }
 }

@@ -35,6 +35,12 @@ pub(crate) enum AppCommand {
     Replace(PathBuf),
     /// Discard the unsaved changes at this place in the list of a former window's changes.
     DiscardLeftOver(usize),
+    /// Empty the list of recent files.
+    ClearRecent,
+    /// Take over the scene that another program has written to the scene's file.
+    Reload,
+    /// Keep the present scene over the one that another program has written to its file.
+    KeepMine,
     /// Use the typed path.
     PathEntered(PathBuf),
     /// Dismiss a slow file dialog and ask for a typed path.

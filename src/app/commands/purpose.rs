@@ -26,6 +26,18 @@ impl Purpose {
         }
     }
 
+    /// The purpose's name in the file of the preferences.
+    pub(crate) fn key(self) -> &'static str {
+        match self {
+            Self::OpenScene => "open-scene",
+            Self::SaveScene => "save-scene",
+            Self::ExportPicture => "export-picture",
+            Self::ExportSurface => "export-surface",
+            Self::AddSurface => "add-surface",
+            Self::AddTexture => "add-texture",
+        }
+    }
+
     /// The purpose of a file that is dropped onto the window, by its extension; `None` for an extension that the window
     /// cannot read.
     pub(crate) fn of_dropped(path: &Path) -> Option<Self> {

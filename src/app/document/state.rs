@@ -165,6 +165,28 @@ impl Document {
         (self.file, self.selection) = self.history.redo(present).unwrap_or_else(|present| present);
     }
 
+    /// Takes `file`, which another program has written with this stamp, as the present scene. An undo step leads back.
+    pub(crate) fn reload(&mut self, file: SceneFile, stamp: Stamp) {
+        self.history.end_gesture();
+        let before = (Arc::clone(&self.file), self.selection.clone());
+        self.history.record(before, ("reload", 0), || "reload the changed file".to_owned());
+        self.history.end_gesture();
+        self.file = Arc::new(file);
+        self.saved = Some(Arc::clone(&self.file));
+        self.selection = std::mem::take(&mut self.selection).within(&self.file.scene);
+        self.stamp = Some(stamp);
+    }
+
+    /// Keeps the present scene, although another program has written its file with this stamp.
+    pub(crate) fn keep_over(&mut self, stamp: Stamp) {
+        self.stamp = Some(stamp);
+    }
+
+    /// Whether the scene's file last held this scene.
+    pub(crate) fn is_saved_as(&self, file: &SceneFile) -> bool {
+        self.saved.as_ref().is_some_and(|saved| saved.scene == file.scene)
+    }
+
     /// Takes `saved` as the present scene: it was just written to `path`, and its file paths are relative to there.
     pub(crate) fn saved_as(&mut self, path: PathBuf, saved: SceneFile) {
         self.stamp = Stamp::of(&path);

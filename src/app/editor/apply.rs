@@ -33,6 +33,9 @@ impl Editor {
             AppCommand::Answer(answer) => self.answer(ctx, answer),
             AppCommand::Replace(path) => self.replace(ctx, path),
             AppCommand::DiscardLeftOver(index) => self.discard_left_over(index),
+            AppCommand::ClearRecent => self.recent.clear(),
+            AppCommand::Reload => self.reload(),
+            AppCommand::KeepMine => self.keep_mine(),
             AppCommand::PathEntered(path) => self.path_entered(ctx, path),
             AppCommand::TypePath => self.ask_for_typed_path(),
             AppCommand::CloseDialog => self.close_dialog(),
@@ -134,6 +137,7 @@ impl Editor {
         if let Some(Dialog::Recovery(_)) = self.dialog.take() {
             self.left_overs.release();
         }
+        self.outside = None;
         self.after_save = None;
     }
 }

@@ -45,6 +45,7 @@ impl Editor {
 
     /// Opens, saves, exports or adds the file at `path`.
     pub(crate) fn use_path(&mut self, ctx: &Context, purpose: Purpose, path: PathBuf) {
+        self.last_folders.remember(purpose, &path);
         match purpose {
             Purpose::OpenScene => self.leave(ctx, Next::Open(path)),
             Purpose::SaveScene => self.save_to(ctx, path),

@@ -10,10 +10,7 @@ use crate::app::shell::{
 };
 use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 
-/// Height of the outline, screen points: it fits every section of a scene with ten objects.
-const OUTLINE_HEIGHT: f32 = 390.0;
-
-/// Width of the progress panel, screen points.
+/// Least width of the window's free part that shows the progress panel, screen points.
 const PROGRESS_WIDTH: f32 = 240.0;
 /// Least width of the scene panel, screen points: it fits the rows of vectors.
 const SCENE_WIDTH: f32 = 372.0;
@@ -28,6 +25,8 @@ impl Editor {
         }
         self.poll_export(ctx);
         self.poll_recovery(ctx);
+        self.poll_preferences(ctx);
+        self.poll_watch(ctx);
         if let Some(frame) = self.rendering.frame() {
             self.display.show(ctx, &frame.image, &self.viewpoint.seen().scene.film);
         }
@@ -83,37 +82,44 @@ impl Editor {
             panels: self.show_panels,
             history: self.show_history,
         };
-        Panel::top("menu").show(ui, |ui| menu_ui(ui, &self.document, self.rendering.is_paused(), visible, commands));
+        Panel::top("menu").show(ui, |ui| {
+            menu_ui(ui, &self.document, self.recent.paths(), self.rendering.is_paused(), visible, commands);
+        });
         let film = &self.viewpoint.seen().scene.film;
         Panel::bottom("status").show(ui, |ui| status_bar_ui(ui, film, &self.rendering, &self.canvas));
     }
 
-    fn panels_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+    fn panels_ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         let widest = ui.available_width() - SCENE_WIDTH - PICTURE_WIDTH;
         if widest >= PROGRESS_WIDTH {
-            Panel::left("progress").default_size(PROGRESS_WIDTH).size_range(200.0..=widest).show(ui, |ui| {
+            let size = self.panel_sizes.progress;
+            let panel = Panel::left("progress").default_size(size).size_range(200.0..=widest).show(ui, |ui| {
                 contained(ui, |ui| {
                     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                         progress_ui(ui, &self.document, &self.rendering, commands);
                     });
                 });
             });
+            self.panel_sizes.progress = panel.response.rect.width();
         }
         let widest = (ui.available_width() - PICTURE_WIDTH).max(SCENE_WIDTH);
-        Panel::right("scene").default_size(SCENE_WIDTH).size_range(SCENE_WIDTH..=widest).show(ui, |ui| {
+        let size = self.panel_sizes.scene;
+        let panel = Panel::right("scene").default_size(size).size_range(SCENE_WIDTH..=widest).show(ui, |ui| {
             contained(ui, |ui| self.scene_ui(ui, commands));
         });
+        self.panel_sizes.scene = panel.response.rect.width();
     }
 
-    fn scene_ui(&self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-        let outline = OUTLINE_HEIGHT.min(0.5 * ui.available_height());
+    fn scene_ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+        let outline = self.panel_sizes.outline.min(0.5 * ui.available_height());
         // The properties stay visible in a low window.
         let highest = (0.6 * ui.available_height()).max(80.0);
-        Panel::top("outline").resizable(true).default_size(outline).size_range(80.0..=highest).show(ui, |ui| {
-            ScrollArea::vertical()
-                .auto_shrink(false)
-                .show(ui, |ui| outline_ui(ui, &self.document, &self.viewpoint.seen().scene, commands));
+        let panel = Panel::top("outline").resizable(true).default_size(outline).size_range(80.0..=highest);
+        let panel = panel.show(ui, |ui| {
+            let seen = &self.viewpoint.seen().scene;
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, seen, commands));
         });
+        self.panel_sizes.outline = panel.response.rect.height();
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(4.0);
             properties_ui(ui, &self.document, commands);
@@ -138,7 +144,8 @@ impl Editor {
             if self.viewpoint.looks_around() {
                 looking_ui(ui, commands);
             }
-            notices_ui(ui, self.document.scene(), &self.rendering, &self.chooser, commands);
+            let unreadable = self.unreadable.as_deref();
+            notices_ui(ui, self.document.scene(), &self.rendering, &self.chooser, unreadable, commands);
         });
         if self.show_history && self.dialog.is_none() {
             history_ui(ui.ctx(), canvas, &self.document, commands);

@@ -6,7 +6,10 @@
 //! | `views` | changes the camera that the window shows the scene with |
 //! | `path_request` | asks the user for a path, by file dialog or by path field |
 //! | `scenes` | opens, saves and leaves scenes |
-//! | `recovery` | keeps unsaved changes, and recovers those of former windows |
+//! | `recovery` | writes unsaved changes, and recovers those of former windows |
+//! | `preferences` | applies and remembers the looks of the window |
+//! | `keeping` | what the editor keeps in the user's folders |
+//! | `outside` | follows changes of the scene's files by other programs |
 //! | `chosen_path` | uses a chosen path: open, save, export, add |
 //! | `selecting` | selects control points |
 //! | `apply` | the one place that carries out commands |
@@ -14,8 +17,11 @@
 
 mod apply;
 mod chosen_path;
+mod keeping;
 mod layout;
+mod outside;
 mod path_request;
+mod preferences;
 mod recovery;
 mod scenes;
 mod selecting;

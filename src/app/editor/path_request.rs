@@ -16,7 +16,7 @@ impl Editor {
             self.toasts.warning(format!("First answer the open file dialog \"{}\"", open.purpose.title()));
             return;
         }
-        let request = Request { purpose, proposal: proposed(&self.document, purpose) };
+        let request = Request { purpose, proposal: proposed(&self.document, purpose, self.last_folders.of(purpose)) };
         self.chooser.start(ctx, request);
     }
 

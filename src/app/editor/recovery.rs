@@ -1,20 +1,13 @@
-//! Keeps unsaved changes, and recovers those of former windows.
+//! Writes unsaved changes, and recovers those of former windows.
 
 use super::state::Editor;
 use crate::app::document::Document;
-use crate::app::keeping::Folders;
 use crate::app::shell::Dialog;
 use crate::scene::{Location, SceneFile};
 use egui::Context;
 use std::time::Instant;
 
 impl Editor {
-    /// Keeps unsaved changes in the user's folders from now on, and offers the changes of windows that ended without saving.
-    pub(crate) fn keep_in(&mut self, ctx: &Context, folders: &Folders) {
-        self.autosave.keep_in(folders.unsaved());
-        self.left_overs.search(ctx, folders.unsaved());
-    }
-
     /// Writes the unsaved changes if it is time, and asks about the changes of former windows once they are found.
     pub(crate) fn poll_recovery(&mut self, ctx: &Context) {
         if let Some(error) = self.autosave.update(ctx, &self.document, Instant::now()) {

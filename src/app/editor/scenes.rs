@@ -18,6 +18,9 @@ impl Editor {
             && let Err(error) = SceneFile::open(path)
         {
             self.report(&path.display().to_string(), &error);
+            if !path.exists() {
+                self.recent.remove(path);
+            }
         } else if self.document.is_dirty() {
             self.dialog = Some(Dialog::Unsaved(next));
         } else {
@@ -67,6 +70,8 @@ impl Editor {
             return self.ask_again(Purpose::SaveScene, &path, error.to_string());
         }
         self.toasts.success(format!("Saved {}", path.display()));
+        self.recent.add(&path);
+        self.unreadable = None;
         let rendered = self.rendering.renders(self.viewpoint.seen());
         self.document.saved_as(path, file);
         if rendered {
@@ -82,7 +87,7 @@ impl Editor {
     fn proceed(&mut self, ctx: &Context, next: Next) {
         match next {
             Next::New => self.show(SceneFile { scene: new_items::empty_scene(), location: Location::Unsaved }),
-            Next::Open(path) => self.open(SceneFile::open(&path), &path.display().to_string()),
+            Next::Open(path) => self.open_recent(&path),
             Next::Example(name) => self.open(SceneFile::built_in(name), name),
             Next::Recover(index) => self.recover(index),
             Next::Quit => {
@@ -91,6 +96,17 @@ impl Editor {
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
         }
+    }
+
+    /// Opens a scene file and puts it at the top of the recent files; a missing file leaves them.
+    fn open_recent(&mut self, path: &Path) {
+        let opened = SceneFile::open(path);
+        if opened.is_ok() {
+            self.recent.add(path);
+        } else if !path.exists() {
+            self.recent.remove(path);
+        }
+        self.open(opened, &path.display().to_string());
     }
 
     /// Shows an opened scene. Where opening failed, keeps the present scene and reports the error.
@@ -114,6 +130,7 @@ impl Editor {
         self.document = document;
         self.viewpoint.look(None);
         self.visited = Visited::new(self.document.scene().camera);
+        self.unreadable = None;
         self.canvas.fit();
         self.export.cancel_picture();
     }

@@ -2,9 +2,11 @@
 
 use crate::app::canvas::Canvas;
 use crate::app::commands::Next;
-use crate::app::document::Document;
+use crate::app::document::{Document, Stamp};
 use crate::app::files::{Chooser, Export};
-use crate::app::keeping::{Autosave, LeftOvers};
+use crate::app::keeping::{
+    Autosave, LastFolders, LeftOvers, PanelSizes, PreferencesFile, RecentFiles, Watch, WindowPlace,
+};
 use crate::app::rendering::{Display, Rendering};
 use crate::app::shell::Dialog;
 use crate::app::viewpoint::{RestingSize, Viewpoint, Visited};
@@ -27,6 +29,17 @@ pub(crate) struct Editor {
     pub(crate) export: Export,
     pub(crate) autosave: Autosave,
     pub(crate) left_overs: LeftOvers,
+    pub(crate) recent: RecentFiles,
+    pub(crate) watch: Watch,
+    /// The scene that another program has written to the scene's file, while the user is asked about it.
+    pub(crate) outside: Option<(SceneFile, Stamp)>,
+    /// Why the scene's file, which another program has changed, cannot be opened.
+    pub(crate) unreadable: Option<String>,
+    pub(crate) preferences_file: PreferencesFile,
+    pub(crate) last_folders: LastFolders,
+    pub(crate) panel_sizes: PanelSizes,
+    /// The place of the window while it is not maximized; `None` where the desktop does not tell.
+    pub(crate) window_place: Option<WindowPlace>,
     pub(crate) dialog: Option<Dialog>,
     pub(crate) toasts: Toasts,
     /// The step that follows once the scene is saved.
@@ -40,7 +53,7 @@ pub(crate) struct Editor {
 }
 
 impl Editor {
-    /// An editor of this scene, which it submits for rendering. It keeps nothing on disk by itself: see [`Editor::keep_in`].
+    /// An editor of this scene, which it submits for rendering. It keeps nothing on disk by itself: see `keep_in`.
     pub(crate) fn new(file: SceneFile) -> Self {
         let document = Document::new(file);
         let mut rendering = Rendering::new();
@@ -57,6 +70,14 @@ impl Editor {
             export: Export::default(),
             autosave: Autosave::default(),
             left_overs: LeftOvers::default(),
+            recent: RecentFiles::default(),
+            watch: Watch::default(),
+            outside: None,
+            unreadable: None,
+            preferences_file: PreferencesFile::default(),
+            last_folders: LastFolders::default(),
+            panel_sizes: PanelSizes::default(),
+            window_place: None,
             dialog: None,
             toasts: Toasts::default().with_anchor(Anchor::BottomLeft).with_margin(egui::vec2(12.0, 34.0)),
             after_save: None,

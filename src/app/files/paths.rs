@@ -7,10 +7,13 @@ use std::path::{Path, PathBuf};
 /// A longer text after a dot is part of the file's name, not an extension.
 const LONGEST_EXTENSION: usize = 5;
 
-/// The path to propose: the folder of the scene file, or else the working directory; to write a file, with the scene's
-/// name and the default extension.
-pub(crate) fn proposed(document: &Document, purpose: Purpose) -> PathBuf {
-    let folder = document.path().and_then(Path::parent).map(Path::to_path_buf);
+/// The path to propose: to open or save a scene, in the folder of the scene file, or else in `last`, the folder that the user chose last; for
+/// other files in `last`, or else in the folder of the scene file; without both in the working directory. To write a file, the path has
+/// the scene's name and the default extension.
+pub(crate) fn proposed(document: &Document, purpose: Purpose, last: Option<PathBuf>) -> PathBuf {
+    let of_scene = document.path().and_then(Path::parent).map(Path::to_path_buf);
+    let is_of_scene = matches!(purpose, Purpose::OpenScene | Purpose::SaveScene);
+    let folder = if is_of_scene { of_scene.or(last) } else { last.or(of_scene) };
     let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default();
     if !purpose.writes() {
         return folder.join("");

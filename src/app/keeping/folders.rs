@@ -8,6 +8,8 @@ use std::path::PathBuf;
 pub(crate) struct Folders {
     /// For what the program may forget without harm to the user's files, such as recent files, and for unsaved changes.
     pub(crate) state: PathBuf,
+    /// For preferences.
+    pub(crate) config: PathBuf,
 }
 
 impl Folders {
@@ -18,11 +20,21 @@ impl Folders {
         let folders = choose_app_strategy(names).ok()?;
         // Only XDG has a folder of its own for state.
         let state = folders.state_dir().unwrap_or_else(|| folders.data_dir());
-        Some(Self { state })
+        Some(Self { state, config: folders.config_dir() })
     }
 
     /// The folder for unsaved changes.
     pub(crate) fn unsaved(&self) -> PathBuf {
         self.state.join("unsaved")
+    }
+
+    /// The file with the list of recent files.
+    pub(crate) fn recent(&self) -> PathBuf {
+        self.state.join("recent.toml")
+    }
+
+    /// The file with the preferences.
+    pub(crate) fn preferences(&self) -> PathBuf {
+        self.config.join("preferences.toml")
     }
 }

@@ -1,4 +1,4 @@
-//! Modal dialogs: unsaved changes, recovery, errors, paths, surface export, help, the command palette.
+//! Modal dialogs: unsaved changes, reloading, recovery, errors, paths, surface export, help, the command palette.
 
 use super::palette::Palette;
 use super::primary::primary_ui;
@@ -18,6 +18,8 @@ pub(crate) enum Dialog {
     Unsaved(Next),
     /// Asks whether to replace the scene's file, which another program has changed.
     ChangedOutside(PathBuf),
+    /// Asks whether to reload the scene's file, which another program has changed while the scene has unsaved changes.
+    Reload(PathBuf),
     /// Asks what to do with the unsaved changes of windows that ended without saving.
     Recovery(Vec<LeftOverRow>),
     /// Reports an error: title, text.
@@ -39,6 +41,7 @@ pub(crate) fn dialog_ui(ctx: &Context, dialog: &mut Dialog, document: &Document,
         match dialog {
             Dialog::Unsaved(next) => unsaved_ui(ui, &document.title(), next, commands),
             Dialog::ChangedOutside(path) => changed_ui(ui, path, commands),
+            Dialog::Reload(path) => reload_ui(ui, path, commands),
             Dialog::Recovery(rows) => recovery_ui(ui, rows, commands),
             Dialog::Error(title, text) => error_ui(ui, title, text, commands),
             Dialog::Path(field) => field.ui(ui, commands),
@@ -89,6 +92,24 @@ fn changed_ui(ui: &mut Ui, path: &Path, commands: &mut Vec<AppCommand>) {
         }
         if ui.button("Cancel").clicked() {
             commands.push(AppCommand::CloseDialog);
+        }
+    });
+}
+
+fn reload_ui(ui: &mut Ui, path: &Path, commands: &mut Vec<AppCommand>) {
+    ui.heading("Reload the changed file?");
+    ui.label(format!(
+        "Another program has changed {}, and the scene has unsaved changes here. After reloading, undo brings your scene \
+         back. If you keep yours, saving replaces the changes of the other program.",
+        path.display()
+    ));
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        if primary_ui(ui, "Keep mine") {
+            commands.push(AppCommand::KeepMine);
+        }
+        if ui.button("Reload").clicked() {
+            commands.push(AppCommand::Reload);
         }
     });
 }

@@ -6,6 +6,7 @@ use crate::app::document::Document;
 use crate::app::viewpoint::{NamedView, Side};
 use crate::scene::built_in_scenes;
 use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
+use std::path::{Path, PathBuf};
 
 /// The states that the user can switch, for the menu's check marks.
 #[derive(Clone, Copy, Debug)]
@@ -27,12 +28,13 @@ pub(crate) struct Visibility {
 pub(crate) fn menu_ui(
     ui: &mut Ui,
     document: &Document,
+    recent: &[PathBuf],
     paused: bool,
     visible: Visibility,
     commands: &mut Vec<AppCommand>,
 ) {
     MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| file_ui(ui, commands));
+        ui.menu_button("File", |ui| file_ui(ui, recent, commands));
         ui.menu_button("Edit", |ui| edit_ui(ui, document, visible, commands));
         ui.menu_button("Select", |ui| select_ui(ui, document, visible, commands));
         ui.menu_button("View", |ui| view_ui(ui, visible, commands));
@@ -55,10 +57,11 @@ pub(crate) fn menu_ui(
     });
 }
 
-fn file_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+fn file_ui(ui: &mut Ui, recent: &[PathBuf], commands: &mut Vec<AppCommand>) {
     for action in [Action::New, Action::Open] {
         item_ui(ui, action, action.label(), true, commands);
     }
+    ui.add_enabled_ui(!recent.is_empty(), |ui| ui.menu_button("Open recent", |ui| recent_ui(ui, recent, commands)));
     ui.menu_button("Examples", |ui| {
         for example in built_in_scenes() {
             if ui.button(example.title).clicked() {
@@ -72,6 +75,30 @@ fn file_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     }
     ui.separator();
     item_ui(ui, Action::Quit, Action::Quit.label(), true, commands);
+}
+
+fn recent_ui(ui: &mut Ui, recent: &[PathBuf], commands: &mut Vec<AppCommand>) {
+    for path in recent {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let folder = path.parent().map_or_else(String::new, short_folder);
+        let button = ui.add(Button::new(name).shortcut_text(folder));
+        if button.on_hover_text(path.display().to_string()).clicked() {
+            commands.push(AppCommand::Leave(Next::Open(path.clone())));
+        }
+    }
+    ui.separator();
+    if ui.button("Clear list").clicked() {
+        commands.push(AppCommand::ClearRecent);
+    }
+}
+
+/// The last two names of a folder's path, after a mark where more names stand before them.
+fn short_folder(folder: &Path) -> String {
+    let names: Vec<_> = folder.iter().map(|name| name.to_string_lossy()).collect();
+    match names.len() {
+        0..=3 => folder.display().to_string(),
+        count => format!("…/{}", names[count - 2..].join("/")),
+    }
 }
 
 fn edit_ui(ui: &mut Ui, document: &Document, visible: Visibility, commands: &mut Vec<AppCommand>) {
@@ -203,5 +230,17 @@ fn navigate_ui(ui: &mut Ui, on: bool, commands: &mut Vec<AppCommand>) {
     );
     if ui.add(Button::selectable(on, "Navigate")).on_hover_text(tip).clicked() {
         commands.push(AppCommand::Do(Action::Navigate));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_folder_is_shortened() {
+        let short = |folder: &str| short_folder(Path::new(folder));
+        assert_eq!(short("/home/ada"), "/home/ada");
+        assert_eq!(short("/home/ada/work/scenes"), "…/work/scenes");
     }
 }

@@ -1,4 +1,5 @@
-//! Messages over the picture: a camera of the window alone, failures, problems of the scene, a lack of light, a slow file dialog.
+//! Messages over the picture: a camera of the window alone, unreadable files, failures, problems of the scene, a lack of light, a slow
+//! file dialog.
 
 use crate::app::commands::{Action, AppCommand};
 use crate::app::document::kinds;
@@ -13,15 +14,19 @@ use egui::{Color32, Frame, ScrollArea, Ui};
 /// Maximum height of the list of problems, screen points: the picture stays visible.
 const MAX_HEIGHT: f32 = 120.0;
 
-/// Shows a failure of the engine, the problems that keep the scene from being rendered, the lack of light, and a slow file
+/// Shows a changed file that cannot be opened, a failure of the engine, the problems that keep the scene from being rendered, the lack of light, and a slow file
 /// dialog.
 pub(crate) fn notices_ui(
     ui: &mut Ui,
     scene: &Scene,
     rendering: &Rendering,
     chooser: &Chooser,
+    unreadable: Option<&str>,
     commands: &mut Vec<AppCommand>,
 ) {
+    if let Some(message) = unreadable {
+        unreadable_ui(ui, message);
+    }
     if let Status::Failed(message) = rendering.status() {
         failure_ui(ui, message);
     }
@@ -49,6 +54,15 @@ pub(crate) fn looking_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
                 }
             }
         });
+    });
+}
+
+/// Tells of a changed file that cannot be opened.
+fn unreadable_ui(ui: &mut Ui, message: &str) {
+    let color = theme::palette(ui.visuals().dark_mode).warning;
+    notice_ui(ui, color, |ui| {
+        ui.colored_label(color, "⚠ Another program has changed the scene's file, but the file cannot be opened yet:");
+        ui.label(message);
     });
 }
 

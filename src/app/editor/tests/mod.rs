@@ -14,6 +14,8 @@
 //! | `keys` | shortcuts, the help |
 //! | `panels` | the outline, adding and deleting, notices |
 //! | `recovery` | unsaved changes of windows that ended |
+//! | `preferences` | remembered looks and folders, recent files |
+//! | `outside` | files that other programs change |
 //! | `fields` | typed numbers and names |
 
 mod canvas;
@@ -26,7 +28,9 @@ mod grasp;
 mod history;
 mod keys;
 mod navigation;
+mod outside;
 mod panels;
+mod preferences;
 mod recovery;
 mod selecting;
 

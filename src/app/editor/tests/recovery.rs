@@ -1,7 +1,7 @@
 use super::*;
 use crate::app::commands::{AppCommand, Next};
 use crate::app::document::Edit;
-use crate::app::keeping::{Folders, Pace};
+use crate::app::keeping::{Folders, LoadedPreferences, Pace};
 use std::fs;
 use std::path::Path;
 
@@ -18,7 +18,8 @@ fn open_in(home: &Path, scene: &Path) -> Ui {
 fn keep_in(ui: &mut Ui, home: &Path) {
     let ctx = ui.ctx.clone();
     ui.state_mut().autosave.pace = Pace { rest: Duration::ZERO, most: Duration::ZERO };
-    ui.state_mut().keep_in(&ctx, &Folders { state: home.to_owned() });
+    let folders = Folders { state: home.to_owned(), config: home.to_owned() };
+    ui.state_mut().keep_in(&ctx, &folders, LoadedPreferences::default());
 }
 
 /// A scene file in a folder, with a texture beside it.
