@@ -2,13 +2,13 @@
 
 use crate::app::commands::{AppCommand, Next};
 use crate::app::editor::Editor;
-use crate::app::keeping::{Folders, LoadedPreferences};
+use crate::app::keeping::{Folders, LoadedPreferences, WindowPlace};
 use crate::app::keyboard;
 use crate::app::theme;
 use crate::engine::{Engine, EngineError, EngineSettings};
 use crate::scene::SceneFile;
 use eframe::{App, CreationContext, Frame};
-use egui::{Context, Ui, ViewportCommand};
+use egui::{Context, Rect, Ui, ViewportCommand, pos2, vec2};
 
 /// The desktop window: an editor and the engine that renders its scene.
 pub(crate) struct Window {
@@ -34,6 +34,9 @@ impl Window {
         let mut editor = Editor::new(file);
         if let Some((folders, loaded)) = kept {
             editor.keep_in(&creation.egui_ctx, &folders, loaded);
+        }
+        if let (Some(place), Some(window)) = (editor.window_place, creation.winit_window()) {
+            bring_within_reach(&creation.egui_ctx, place, &monitors(window));
         }
         Ok(Self { editor, engine, title: String::new() })
     }
@@ -63,6 +66,26 @@ impl Window {
             self.title = title;
         }
     }
+}
+
+/// Moves a window to the first monitor if the monitor of its remembered place is gone.
+fn bring_within_reach(ctx: &Context, place: WindowPlace, monitors: &[Rect]) {
+    if let [first, ..] = monitors
+        && !place.is_reachable(monitors)
+    {
+        ctx.send_viewport_cmd(ViewportCommand::OuterPosition(first.min + vec2(40.0, 40.0)));
+    }
+}
+
+/// The monitors of the desktop, screen points.
+fn monitors(window: &winit::window::Window) -> Vec<Rect> {
+    let points = |pixels: f64| (pixels / window.scale_factor()) as f32;
+    let rect = |monitor: winit::monitor::MonitorHandle| {
+        let (corner, size) = (monitor.position(), monitor.size());
+        let corner = pos2(points(corner.x.into()), points(corner.y.into()));
+        Rect::from_min_size(corner, vec2(points(size.width.into()), points(size.height.into())))
+    };
+    window.available_monitors().map(rect).collect()
 }
 
 impl App for Window {

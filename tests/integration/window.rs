@@ -130,6 +130,13 @@ impl Desktop {
         program
     }
 
+    /// Presses a key in the window, which may have lost the keyboard while it opened.
+    fn key_in_window(&self, key: &str) {
+        let window = self.xdotool(&["search", "--onlyvisible", "--name", "patchlight"]);
+        self.xdotool(&["windowfocus", "--sync", window.lines().next().unwrap_or_default()]);
+        self.key(key);
+    }
+
     /// The middle of the screen.
     fn picture(&self) -> Picture {
         let output = self.run("import", "imagemagick", &["-window", "root", "png:-"]);
@@ -230,6 +237,41 @@ fn the_picture_follows_a_dragged_control_point_and_converges_again() {
     let (undone, _) = settled(&desktop, |_| 1.0);
     let back = undone.difference(&before);
     assert!(back < 0.5 * changed, "after undo it differs by {back} from before, after the drag by {changed}");
+}
+
+#[test]
+fn unsaved_changes_survive_a_killed_window() {
+    let folder = tempfile::tempdir().expect("a folder for the scene");
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, SCENE).expect("the scene is written");
+    let desktop = Desktop::start();
+    let program = desktop.open(&scene);
+    let unsaved = desktop.home.path().join("state/patchlight/unsaved");
+    let is_kept = || {
+        let mut files = std::fs::read_dir(&unsaved).into_iter().flatten().flatten();
+        files.any(|file| file.path().extension().is_some_and(|extension| extension == "toml"))
+    };
+    wait_for("file with the changes", || {
+        desktop.key_in_window("e");
+        // Changes are written after a rest.
+        std::thread::sleep(Duration::from_secs(3));
+        is_kept().then_some(())
+    });
+    // By SIGKILL.
+    drop(program);
+
+    let _program = desktop.open(&scene);
+    wait_for("recovered scene, with a mark for unsaved changes in its title", || {
+        desktop.key_in_window("Return");
+        Some(desktop.xdotool(&["search", "--name", "^\\*scene.toml"])).filter(|found| !found.is_empty())
+    });
+    let exposure = || patchlight::scene::SceneFile::open(&scene).expect("a valid scene").scene.film.exposure;
+    assert_eq!(exposure(), 0.0, "the file is as it was");
+    wait_for("saved scene", || {
+        desktop.key_in_window("ctrl+s");
+        (exposure() > 0.0).then_some(())
+    });
+    wait_for("state folder without changes", || (!is_kept()).then_some(()));
 }
 
 #[test]

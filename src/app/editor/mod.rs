@@ -2,6 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `opened_scene` | a scene file that was opened before a question |
 //! | `state` | [`Editor`]: all that the window shows and remembers |
 //! | `views` | changes the camera that the window shows the scene with |
 //! | `path_request` | asks the user for a path, by file dialog or by path field |
@@ -19,6 +20,7 @@ mod apply;
 mod chosen_path;
 mod keeping;
 mod layout;
+mod opened_scene;
 mod outside;
 mod path_request;
 mod preferences;

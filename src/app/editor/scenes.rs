@@ -1,5 +1,6 @@
 //! Opens, saves and leaves scenes.
 
+use super::opened_scene::OpenedScene;
 use super::state::Editor;
 use crate::app::commands::{Answer, Next, Purpose};
 use crate::app::document::{Document, new_items};
@@ -13,19 +14,16 @@ impl Editor {
     /// Leaves the present scene, or asks first while changes are unsaved. A scene that does not open is reported without a
     /// question.
     pub(crate) fn leave(&mut self, ctx: &Context, next: Next) {
-        if let Next::Open(path) = &next
-            && self.document.is_dirty()
-            && let Err(error) = SceneFile::open(path)
-        {
-            self.report(&path.display().to_string(), &error);
-            if !path.exists() {
-                self.recent.remove(path);
-            }
-        } else if self.document.is_dirty() {
-            self.dialog = Some(Dialog::Unsaved(next));
-        } else {
-            self.proceed(ctx, next);
+        if !self.document.is_dirty() {
+            return self.proceed(ctx, next);
         }
+        if let Next::Open(path) = &next {
+            match OpenedScene::read(path) {
+                Ok(opened) => self.opened = Some(opened),
+                Err(error) => return self.open_failed(path, &error),
+            }
+        }
+        self.dialog = Some(Dialog::Unsaved(next));
     }
 
     /// Follows the user's answer to "Save the changes?".
@@ -37,7 +35,7 @@ impl Editor {
                 self.save(ctx);
             }
             Answer::Discard => self.proceed(ctx, next),
-            Answer::Cancel => {}
+            Answer::Cancel => self.opened = None,
         }
     }
 
@@ -87,7 +85,7 @@ impl Editor {
     fn proceed(&mut self, ctx: &Context, next: Next) {
         match next {
             Next::New => self.show(SceneFile { scene: new_items::empty_scene(), location: Location::Unsaved }),
-            Next::Open(path) => self.open_recent(&path),
+            Next::Open(path) => self.open_file(&path),
             Next::Example(name) => self.open(SceneFile::built_in(name), name),
             Next::Recover(index) => self.recover(index),
             Next::Quit => {
@@ -98,15 +96,24 @@ impl Editor {
         }
     }
 
-    /// Opens a scene file and puts it at the top of the recent files; a missing file leaves them.
-    fn open_recent(&mut self, path: &Path) {
-        let opened = SceneFile::open(path);
-        if opened.is_ok() {
-            self.recent.add(path);
-        } else if !path.exists() {
+    /// Opens a scene file, unless it was opened before the question about unsaved changes, and puts it at the top of the recent files.
+    fn open_file(&mut self, path: &Path) {
+        let opened = self.opened.take().filter(|opened| opened.is_present(path));
+        match opened.map_or_else(|| SceneFile::open(path), |opened| Ok(opened.file)) {
+            Ok(file) => {
+                self.recent.add(path);
+                self.show(file);
+            }
+            Err(error) => self.open_failed(path, &error),
+        }
+    }
+
+    /// Reports a scene file that does not open. A missing file leaves the recent files.
+    fn open_failed(&mut self, path: &Path, error: &SceneError) {
+        if !path.exists() {
             self.recent.remove(path);
         }
-        self.open(opened, &path.display().to_string());
+        self.report(&path.display().to_string(), error);
     }
 
     /// Shows an opened scene. Where opening failed, keeps the present scene and reports the error.

@@ -1,5 +1,6 @@
 //! All that the window shows and remembers.
 
+use super::opened_scene::OpenedScene;
 use crate::app::canvas::Canvas;
 use crate::app::commands::Next;
 use crate::app::document::{Document, Stamp};
@@ -42,6 +43,8 @@ pub(crate) struct Editor {
     pub(crate) window_place: Option<WindowPlace>,
     pub(crate) dialog: Option<Dialog>,
     pub(crate) toasts: Toasts,
+    /// The scene file that the user wants to open, while the user is asked about unsaved changes.
+    pub(crate) opened: Option<OpenedScene>,
     /// The step that follows once the scene is saved.
     pub(crate) after_save: Option<Next>,
     pub(crate) show_panels: bool,
@@ -80,6 +83,7 @@ impl Editor {
             window_place: None,
             dialog: None,
             toasts: Toasts::default().with_anchor(Anchor::BottomLeft).with_margin(egui::vec2(12.0, 34.0)),
+            opened: None,
             after_save: None,
             show_panels: true,
             show_history: false,

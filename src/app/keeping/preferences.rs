@@ -1,7 +1,7 @@
 //! What the window remembers of its looks.
 
 use crate::app::commands::Purpose;
-use egui::ThemePreference;
+use egui::{Rect, ThemePreference, Vec2, vec2};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -108,6 +108,9 @@ impl Default for PanelSizes {
     }
 }
 
+/// The part of a title bar that is enough to grasp it, screen points.
+const TITLE_BAR: Vec2 = vec2(80.0, 30.0);
+
 /// The place of the window on the desktop while it is not maximized, screen points.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct WindowPlace {
@@ -119,6 +122,18 @@ pub(crate) struct WindowPlace {
 }
 
 impl WindowPlace {
+    /// Whether the user can grasp the title bar on one of the monitors, which may be others than before; screen points. Without known
+    /// monitors any place will do.
+    pub(crate) fn is_reachable(&self, monitors: &[Rect]) -> bool {
+        let Some(corner) = self.corner else { return true };
+        let title_bar = Rect::from_min_size(corner.into(), vec2(self.width, TITLE_BAR.y));
+        let can_grasp = |monitor: &Rect| {
+            let seen = monitor.intersect(title_bar);
+            seen.width() >= TITLE_BAR.x && seen.height() >= 0.5 * TITLE_BAR.y
+        };
+        monitors.is_empty() || monitors.iter().any(can_grasp)
+    }
+
     fn is_possible(&self) -> bool {
         let sizes = 100.0..=30_000.0;
         let corners = -100_000.0..=100_000.0;
@@ -151,6 +166,21 @@ impl LastFolders {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_window_beside_all_monitors_is_out_of_reach() {
+        let monitor = |x: f32| Rect::from_min_size([x, 0.0].into(), vec2(1000.0, 800.0));
+        let is_reachable = |x, y, monitors: &[Rect]| {
+            let place = WindowPlace { width: 600.0, height: 400.0, corner: Some([x, y]), maximized: false };
+            place.is_reachable(monitors)
+        };
+        let both = [monitor(0.0), monitor(1000.0)];
+        assert!(is_reachable(1500.0, 100.0, &both));
+        assert!(!is_reachable(1500.0, 100.0, &both[..1]), "its monitor is gone");
+        assert!(is_reachable(-500.0, -10.0, &both) && !is_reachable(-550.0, 0.0, &both), "a part is enough");
+        assert!(!is_reachable(100.0, -40.0, &both), "the title bar is above the monitor");
+        assert!(is_reachable(9000.0, 0.0, &[]), "without known monitors");
+    }
 
     #[test]
     fn impossible_numbers_become_usual_ones() {

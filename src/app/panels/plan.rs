@@ -1,5 +1,6 @@
 //! The rendered and the skipped items of the plan with reasons, and warnings about the scene.
 
+use crate::app::rendering::Renames;
 use crate::app::theme;
 use crate::engine::PlanSummary;
 use egui::Ui;
@@ -18,14 +19,14 @@ pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
     }
 }
 
-/// The warnings about the scene, one paragraph each.
-pub(super) fn warnings_ui(ui: &mut Ui, plan: &PlanSummary) {
+/// The warnings about the scene, one paragraph each, with the present names of its items.
+pub(super) fn warnings_ui(ui: &mut Ui, plan: &PlanSummary, renames: &Renames<'_>) {
     let palette = theme::palette(ui.visuals().dark_mode);
     for warning in &plan.warnings {
         ui.horizontal_wrapped(|ui| {
             ui.colored_label(palette.warning, "⚠");
-            ui.label(format!("{} {}.", warning.subject, warning.fault));
-            ui.weak(format!("To mend it: {}.", warning.remedy));
+            ui.label(renames.apply(&format!("{} {}.", warning.subject, warning.fault)));
+            ui.weak(renames.apply(&format!("To mend it: {}.", warning.remedy)));
         });
     }
 }

@@ -30,7 +30,9 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
     });
     ui.add_space(4.0);
     error_plot_ui(ui, rendering.error_curve(), rendering.target());
-    warnings_ui(ui, &frame.plan);
+    if !frame.plan.warnings.is_empty() {
+        warnings_ui(ui, &frame.plan, &rendering.renames(document.scene()));
+    }
     CollapsingHeader::new("Statistics").default_open(false).show(ui, |ui| {
         counts_ui(ui, frame.iteration, &frame.stats);
         ui.add_space(4.0);

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `same_picture` | whether two scenes have the same picture |
 //! | `submission` | the scene that the engine renders, and the problems that keep a scene from it |
+//! | `renames` | [`Renames`]: new names in the engine's texts |
 //! | `error_curve` | [`ErrorCurve`]: the error estimate over time |
 //! | `state` | [`Rendering`]: the newest frame, the engine's status, the commands for the engine |
 //! | `sampling` | [`Sampling`]: how the screen samples the picture |
@@ -11,6 +12,7 @@
 
 mod display;
 mod error_curve;
+mod renames;
 mod same_picture;
 mod sampling;
 mod state;
@@ -18,5 +20,6 @@ mod submission;
 
 pub(crate) use display::Display;
 pub(crate) use error_curve::ErrorCurve;
+pub(crate) use renames::Renames;
 pub(crate) use sampling::Sampling;
 pub(crate) use state::Rendering;

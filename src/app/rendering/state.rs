@@ -1,9 +1,10 @@
 //! The newest frame, the engine's status, and the commands for the engine.
 
 use super::error_curve::ErrorCurve;
+use super::renames::Renames;
 use super::submission::Submission;
 use crate::engine::{Command, Frame, Status};
-use crate::scene::{Problem, SceneFile};
+use crate::scene::{Problem, Scene, SceneFile};
 use std::sync::Arc;
 
 /// The relative error at which rendering stops by default: a smaller error is invisible, so an unattended window stops
@@ -51,6 +52,12 @@ impl Rendering {
     /// Sends the scene to the engine if the scene is valid and has another picture than the scene that was sent last.
     pub(crate) fn submit(&mut self, file: &Arc<SceneFile>) {
         self.commands.extend(self.submission.update(file).map(Command::Show));
+    }
+
+    /// The renames since the rendering of the picture of `scene` began. None while `scene` has problems: it may have other items.
+    pub(crate) fn renames<'a>(&'a self, scene: &'a Scene) -> Renames<'a> {
+        let named = self.submission.named().filter(|_| self.problems().is_empty());
+        named.map_or_else(Renames::default, |named| Renames::between(&named.scene, scene))
     }
 
     /// Whether the engine renders the picture of this scene.

@@ -9,6 +9,8 @@ use std::sync::Arc;
 pub(crate) struct Submission {
     validated: Option<Arc<SceneFile>>,
     sent: Option<Arc<SceneFile>>,
+    /// The scene that was sent last, with the names that it had then.
+    named: Option<Arc<SceneFile>>,
     problems: Vec<Problem>,
 }
 
@@ -25,12 +27,18 @@ impl Submission {
             return None;
         }
         self.sent = Some(Arc::clone(file));
+        self.named = self.sent.clone();
         self.sent.clone()
     }
 
     /// Whether the scene that was sent last has the picture of `file`.
     pub(crate) fn is_sent(&self, file: &SceneFile) -> bool {
         self.sent.as_ref().is_some_and(|sent| same_picture(sent, file))
+    }
+
+    /// The scene with the names that the engine knows; `None` before the first one.
+    pub(crate) fn named(&self) -> Option<&SceneFile> {
+        self.named.as_deref()
     }
 
     /// Takes `file` as the scene that was sent last: saving changed its location and file paths, but not its picture.

@@ -108,6 +108,22 @@ fn saving_before_leaving_opens_the_next_scene() {
 }
 
 #[test]
+fn a_scene_that_is_saved_before_it_is_opened_again_opens_as_saved() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    let path = folder.path().join("mine.toml");
+    answer_dialogs(&mut ui, Some(path.clone()));
+    press(&mut ui, Key::S);
+    wait_until(&mut ui, "the save", |_| path.exists());
+    edit(&mut ui);
+    let edited = scene(&ui).clone();
+    let ctx = ui.ctx.clone();
+    ui.state_mut().apply(&ctx, AppCommand::Leave(Next::Open(path)));
+    ui.run_steps(2);
+    click(&mut ui, "Save");
+    assert_eq!(*scene(&ui), edited, "not the scene before the save");
+}
+
+#[test]
 fn a_cancelled_save_keeps_the_scene_open() {
     let mut ui = open("cornell");
     // A user needs a moment to cancel; a dialog that returns sooner was never shown.

@@ -1,6 +1,25 @@
 use super::*;
 
 #[test]
+fn a_warning_names_a_renamed_item_by_its_new_name() {
+    let mut ui = open("cornell");
+    let object = scene(&ui).objects[0].clone();
+    let mut warned = Arc::unwrap_or_clone(frame(1, false, 8));
+    let warnings = vec![crate::world::Warning {
+        subject: format!("object \"{}\"", object.name),
+        fault: "is open".into(),
+        remedy: "close it".into(),
+    }];
+    warned.plan = Arc::new(PlanSummary { notes: Vec::new(), warnings });
+    receive(&mut ui, Arc::new(warned));
+    assert!(ui.query_by_label(&format!("object \"{}\" is open.", object.name)).is_some());
+    let renamed = crate::scene::Object { name: "lawn".into(), ..object };
+    ui.state_mut().document.edit(crate::app::document::Edit::Object(0, renamed));
+    ui.run_steps(3);
+    assert!(ui.query_by_label("object \"lawn\" is open.").is_some());
+}
+
+#[test]
 fn a_frame_becomes_the_texture_and_fills_the_panels() {
     let mut ui = open("cornell");
     assert!(ui.state().display.texture().is_none(), "no frame has arrived");
