@@ -30,8 +30,6 @@ impl Editor {
         if let Some(frame) = self.rendering.frame() {
             self.display.show(ctx, &frame.image, &self.viewpoint.seen().scene.film);
         }
-        let scale = self.canvas.transform.map_or(1.0, |transform| transform.scale * ctx.pixels_per_point());
-        self.display.sample(ctx, Sampling::at(scale));
         self.display.poll(ctx);
     }
 
@@ -136,6 +134,9 @@ impl Editor {
             current: self.rendering.is_current(),
         };
         self.canvas.show(ui, &self.document, &self.viewpoint.seen().scene, picture, commands);
+        // In this frame, because no other may follow.
+        let scale = self.canvas.transform.map_or(1.0, |transform| transform.scale * ui.ctx().pixels_per_point());
+        self.display.sample(ui.ctx(), Sampling::at(scale));
         if self.show_hint && self.dialog.is_none() && self.document.undoable().is_none() {
             first_hint_ui(ui, canvas, commands);
         }

@@ -96,6 +96,12 @@ impl Display {
         self.start(ctx);
     }
 
+    /// How the texture is sampled.
+    #[cfg(test)]
+    pub(crate) fn sampling(&self) -> Sampling {
+        self.sampling
+    }
+
     /// Samples the texture in this way from now on.
     pub(crate) fn sample(&mut self, ctx: &Context, sampling: Sampling) {
         if self.sampling != sampling {

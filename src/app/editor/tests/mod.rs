@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `canvas` | selecting and dragging handles; zoom and pan |
 //! | `navigation` | orbit, pan and dolly of the camera |
+//! | `viewpoint` | looking around, matching the window |
 //! | `grasp` | the gizmo, snapping, soft selection, arrow keys, hidden handles |
 //! | `selecting` | rectangles, all and none, rows and columns |
 //! | `frames` | frames, the texture, progress, failures |
@@ -33,6 +34,7 @@ mod panels;
 mod preferences;
 mod recovery;
 mod selecting;
+mod viewpoint;
 
 use crate::app::document::{Handle, Item, Selection, Welds, handles};
 use crate::app::editor::Editor;
