@@ -5,7 +5,6 @@ use super::projection::Projection;
 use super::visibility::Visibility;
 use crate::app::document::{Document, Handle, Item, PointIndex, Welds, handles};
 use glam::{DVec2, DVec3};
-use std::collections::BTreeSet;
 
 /// What the camera sees of the scene and its handles.
 #[derive(Debug, Default)]
@@ -52,8 +51,7 @@ impl Sight {
     /// The control point that stands for a group of welded ones, and whether it lies in the current patches: the patch of
     /// the selection and the patch under the pointer.
     pub(crate) fn representative(&self, point: PointIndex, selected_patch: usize) -> (PointIndex, bool) {
-        let group: BTreeSet<PointIndex> = self.welds.with(point).collect();
-        let in_patch = |patch: usize| group.iter().find(|member| member.patch == patch).copied();
+        let in_patch = |patch: usize| self.welds.with(point).find(|member| member.patch == patch);
         match in_patch(selected_patch).or_else(|| in_patch(self.hovered?)) {
             Some(member) => (member, true),
             None => (point, false),

@@ -11,7 +11,7 @@ use crate::app::commands::AppCommand;
 use crate::app::document::Document;
 use crate::app::theme;
 use crate::film::LinearImage;
-use crate::scene::Scene;
+use crate::scene::{Camera, Scene};
 use egui::{Color32, CursorIcon, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo};
 
 /// Logarithm of the zoom factor per screen point of scrolling.
@@ -90,24 +90,36 @@ impl Canvas {
         }
         let pointer = response.contains_pointer().then(|| ui.input(|input| input.pointer.hover_pos())).flatten();
         self.pixel = pointer.and_then(|pointer| transform.pixel(pointer));
-        if let Some(projection) = Projection::new(&seen.camera, &seen.film) {
-            let film = pointer.map(|pointer| transform.to_film(pointer));
-            // While handles are dragged, what hides them stays as it was at the start.
-            if !self.grasp.is_holding() {
-                self.sight.update(document, &projection, film);
-                if self.sight.waits {
-                    ui.ctx().request_repaint();
-                }
-            }
-            let shows_handles = self.show_handles;
-            let stage = Stage { document, transform, projection, sight: &self.sight, shows_handles };
-            let takes_pointer = !self.navigation.takes_pointer(ui);
-            self.grasp.ui(ui, &stage, &response, takes_pointer, commands);
-            if !self.grasp.is_holding() && self.navigation.navigate(ui, &stage, &seen.camera, &response, commands) {
-                return;
-            }
+        if let Some(projection) = Projection::new(&seen.camera, &seen.film)
+            && self.handles_ui(ui, (document, &seen.camera), (transform, projection), &response, commands)
+        {
+            return;
         }
         self.navigate(ui, &response, &transform);
+    }
+
+    /// Shows the handles, and moves the camera by drags and the wheel. Returns whether the camera took the pointer.
+    fn handles_ui(
+        &mut self,
+        ui: &mut Ui,
+        (document, camera): (&Document, &Camera),
+        (transform, projection): (ScreenTransform, Projection),
+        canvas: &Response,
+        commands: &mut Vec<AppCommand>,
+    ) -> bool {
+        // While handles are dragged, what hides them stays as it was at the start.
+        if !self.grasp.is_holding() {
+            let pointer = canvas.hover_pos().map(|pointer| transform.to_film(pointer));
+            self.sight.update(document, &projection, pointer);
+            if self.sight.waits {
+                ui.ctx().request_repaint();
+            }
+        }
+        let shows_handles = self.show_handles;
+        let stage = Stage { document, transform, projection, sight: &self.sight, shows_handles };
+        let takes_pointer = !self.navigation.takes_pointer(ui);
+        self.grasp.ui(ui, &stage, canvas, takes_pointer, commands);
+        !self.grasp.is_holding() && self.navigation.navigate(ui, &stage, camera, canvas, commands)
     }
 
     /// Shows the whole picture.

@@ -81,7 +81,7 @@ impl Editor {
             Action::SelectRectangle => self.select_rectangle(),
             Action::SelectRow => self.select_lines(Direction::Row),
             Action::SelectColumn => self.select_lines(Direction::Column),
-            Action::ToggleFalloff => self.canvas.grasp.falloff.on = !self.canvas.grasp.falloff.on,
+            Action::ToggleFalloff => self.toggle_falloff(),
             Action::TogglePanels => self.show_panels = !self.show_panels,
             Action::FullScreen => toggle_full_screen(ctx),
             Action::Palette => self.dialog = Some(Dialog::Palette(Palette::default())),

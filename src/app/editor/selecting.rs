@@ -44,6 +44,17 @@ impl Editor {
         self.select_points(points.filter(|points| !points.is_empty()));
     }
 
+    /// Switches soft selection, with a message: nothing on the canvas shows it before a drag.
+    pub(crate) fn toggle_falloff(&mut self) {
+        let on = !self.canvas.grasp.falloff.on;
+        self.canvas.grasp.falloff.on = on;
+        self.toasts.info(if on {
+            "Soft selection is on: neighbours follow a moved control point. The wheel sets how far, during a drag."
+        } else {
+            "Soft selection is off"
+        });
+    }
+
     /// Selects these control points; without any, says where to find some.
     fn select_points(&mut self, points: Option<BTreeSet<PointIndex>>) {
         match points {
