@@ -3,7 +3,7 @@
 use super::state::Editor;
 use crate::app::canvas::Picture;
 use crate::app::commands::{AppCommand, action};
-use crate::app::panels::{outline_ui, progress_ui, properties_ui};
+use crate::app::panels::{outline_ui, progress_ui, properties_ui, refusals};
 use crate::app::rendering::Sampling;
 use crate::app::shell::{
     Visibility, dialog_ui, drop_hint_ui, first_hint_ui, history_ui, looking_ui, menu_ui, notices_ui, status_bar_ui,
@@ -54,6 +54,9 @@ impl Editor {
             dialog_ui(ui.ctx(), dialog, &self.document, &mut commands);
         }
         drop_hint_ui(ui.ctx());
+        for message in refusals(ui.ctx()) {
+            self.toasts.warning(message);
+        }
         self.toasts.show(ui.ctx());
         for command in commands {
             self.apply(ui.ctx(), command);

@@ -1,15 +1,46 @@
-//! Arithmetic in number fields: `0.05 + 0.1`, `2 * (1 - 0.25)`, `0,25`.
+//! Arithmetic in number fields: `0.05 + 0.1`, `2 * (1 - 0.25)`, `0,25`, and changes of the field's number: `+0.1`, `*2`.
+//!
+//! The parser is our own: `exmex` reads no exponents (`1e-3`), `meval` and `fasteval` have had no release for years, and the
+//! licence of `evalexpr` is the AGPL.
 
 /// Parentheses and signs nest at most this deep, so that no text overflows the stack.
 const DEEPEST: usize = 64;
 
-/// The value of an arithmetic expression of numbers, `+`, `-`, `*`, `/` and parentheses; a comma is a decimal point. `None`
-/// for any other text, and where the value is not finite.
-pub(super) fn value_of(text: &str) -> Option<f64> {
+/// The number that a typed text makes of a field's number `present`. A text that begins with `+`, `*` or `/` changes
+/// `present`, and so does `-=`; `-` alone is the sign of a new number. Any other text is an expression of numbers, `+`, `-`,
+/// `*`, `/` and parentheses; a comma is a decimal point. `None` where the text is no expression, and where the result is not
+/// finite.
+pub(super) fn typed(text: &str, present: f64) -> Option<f64> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).map(plain).collect();
-    let mut rest = text.as_str();
-    let value = sum(&mut rest, 0)?;
-    (rest.is_empty() && value.is_finite()).then_some(value)
+    let value = match relative(&text) {
+        Some((operator, operand)) => {
+            let operand = value_of(operand)?;
+            match operator {
+                '+' => present + operand,
+                '-' => present - operand,
+                '*' => present * operand,
+                _ => present / operand,
+            }
+        }
+        None => value_of(&text)?,
+    };
+    value.is_finite().then_some(value)
+}
+
+/// The operator and the operand of a text that changes a number; `None` for a text that sets it.
+fn relative(text: &str) -> Option<(char, &str)> {
+    let operator = text.chars().next().filter(|c| "+-*/".contains(*c))?;
+    let operand = &text[1..];
+    match operand.strip_prefix('=') {
+        Some(operand) => Some((operator, operand)),
+        None => (operator != '-').then_some((operator, operand)),
+    }
+}
+
+/// The value of an expression without spaces.
+fn value_of(mut text: &str) -> Option<f64> {
+    let value = sum(&mut text, 0)?;
+    (text.is_empty() && value.is_finite()).then_some(value)
 }
 
 /// The typed character in the notation of Rust: decimal commas, and the signs of word processors.
@@ -95,15 +126,37 @@ mod tests {
             ("3.", 3.0),
         ];
         for (text, expected) in cases {
-            assert_eq!(value_of(text), Some(expected), "{text}");
+            assert_eq!(typed(text, 7.0), Some(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_operator_in_front_changes_the_number() {
+        let cases = [
+            ("+0.5", 2.5),
+            ("+ 2 * 3", 8.0),
+            ("+-0.5", 1.5),
+            ("+=0,5", 2.5),
+            ("-=0.5", 1.5),
+            ("-=-1", 3.0),
+            ("*3", 6.0),
+            ("×=3", 6.0),
+            ("/4", 0.5),
+            ("/ (1 + 3)", 0.5),
+            ("-0.5", -0.5),
+            ("-1-1", -2.0),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(typed(text, 2.0), Some(expected), "{text}");
         }
     }
 
     #[test]
     fn text_that_is_no_number_has_no_value() {
         let deep = "(".repeat(100_000);
-        for text in ["", "nan", "inf", "1/0", "1e999", "1+", "(1", "1)", "1.2.3", "1,2,3", "2e", "x", "--", &deep] {
-            assert_eq!(value_of(text), None, "{text}");
+        let texts = ["", "nan", "inf", "1/0", "1e999", "1+", "(1", "1)", "1.2.3", "1,2,3", "2e", "x", "--", &deep];
+        for text in texts.into_iter().chain(["+", "+=", "-=", "=1", "/0", "**2", "*1e999", "+é"]) {
+            assert_eq!(typed(text, 2.0), None, "{text}");
         }
     }
 }

@@ -1,10 +1,11 @@
 //! Fields for names, numbers, vectors and colours. Assistive technology and tests find each field by its name.
 
-use super::expression;
+use super::typing::{self, Typing};
 use crate::app::theme;
 use crate::math::Rgb;
 use crate::scene::{Camera, MAX_LENGTH, MAX_RADIANCE, MIN_LENGTH};
-use egui::{ComboBox, DragValue, Grid, Layout, RichText, TextEdit, Ui, Vec2, vec2};
+use egui::emath::Numeric;
+use egui::{ComboBox, DragValue, Grid, Layout, Response, RichText, TextEdit, Ui, Vec2, vec2};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
@@ -82,24 +83,39 @@ pub(super) fn rows(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
 pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
     let layout = Layout::centered_and_justified(ui.layout().main_dir());
     ui.allocate_ui_with_layout(FIELD_SIZE, layout, |ui| {
-        let (ctx, id) = (ui.ctx().clone(), ui.next_auto_id());
+        let typing = Typing::of_next(ui, *value);
         let field = DragValue::new(value)
             .speed(spec.speed)
             .range(spec.range.clone())
             // A number of the scene file stays unchanged until the user edits it.
             .clamp_existing_to_range(false)
-            .custom_formatter(move |value, decimals| {
-                let typing = ctx.memory(|memory| memory.has_focus(id));
-                if typing { value.to_string() } else { short(value, *decimals.start()) }
-            })
-            .custom_parser(expression::value_of)
+            .custom_formatter(
+                |value, decimals| {
+                    if typing.is_active { value.to_string() } else { short(value, *decimals.start()) }
+                },
+            )
+            .custom_parser(|text| typing.read(text))
             .update_while_editing(false);
         let response = ui.add(field.clip_text(true)).accessible_name(name);
-        if !spec.tip.is_empty() {
-            response.on_hover_text(spec.tip);
-        }
+        response.on_hover_text(format!("{}\n{}", spec.tip, typing::HELP).trim_start());
+        typing.end(ui.ctx(), name);
     });
     unit_ui(ui, spec.unit);
+}
+
+/// A field of a whole number without a label; assistive technology reads `name`.
+pub(crate) fn count<N: Numeric>(
+    ui: &mut Ui,
+    name: &str,
+    value: &mut N,
+    range: RangeInclusive<N>,
+    speed: f64,
+) -> Response {
+    let typing = Typing::of_next(ui, value.to_f64());
+    let field = DragValue::new(value).range(range).speed(speed).update_while_editing(false);
+    let response = ui.add(field.custom_parser(|text| typing.read(text))).accessible_name(name);
+    typing.end(ui.ctx(), name);
+    response.on_hover_text(typing::HELP)
 }
 
 fn unit_ui(ui: &mut Ui, unit: &str) {

@@ -5,6 +5,7 @@
 //! | `numbers` | numbers as text: short, grouped, as a duration, in percent |
 //! | `expression` | arithmetic in number fields |
 //! | `icons` | icons of the kinds of items |
+//! | `typing` | typed numbers: relative numbers, and messages on texts that are no numbers |
 //! | `fields` | fields for names, numbers, vectors and colours |
 //! | `control_points` | the 4 x 4 control points of a patch |
 //! | `lights` | the properties of a light |
@@ -33,8 +34,11 @@ mod progress;
 mod properties;
 mod settings;
 mod textures;
+mod typing;
 
+pub(crate) use fields::count;
 pub(crate) use numbers::{duration, grouped};
 pub(crate) use outline::outline_ui;
 pub(crate) use progress::progress_ui;
 pub(crate) use properties::properties_ui;
+pub(crate) use typing::refusals;

@@ -1,11 +1,11 @@
 //! The display settings, and the progress of rendering.
 
 use super::error_plot::error_plot_ui;
-use super::expression;
 use super::fields::rows;
 use super::numbers::{duration, grouped, percent, short, target_text};
 use super::plan::{plan_ui, warnings_ui};
 use super::settings::display_rows;
+use super::typing::Typing;
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit};
 use crate::app::rendering::Rendering;
@@ -93,14 +93,19 @@ fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {
 fn target_row(ui: &mut Ui, target: Option<f64>, commands: &mut Vec<AppCommand>) {
     let mut percent = 100.0 * target.unwrap_or(0.0);
     let label = ui.label("Stop at error");
+    let typing = Typing::of_next(ui, percent);
     let field = DragValue::new(&mut percent)
         .range(0.0..=100.0)
         .speed(0.01)
         .max_decimals(3)
         .update_while_editing(false)
         .custom_formatter(|percent, _| target_text(percent))
-        .custom_parser(|text| expression::value_of(text.trim().trim_end_matches('%')));
+        .custom_parser(|text| match text.trim() {
+            "never" => Some(0.0),
+            percent => typing.read(percent.trim_end_matches('%')),
+        });
     let field = ui.add(field).labelled_by(label.id);
+    typing.end(ui.ctx(), "Stop at error");
     if field.on_hover_text("Rendering stops when the error is hardly above this; 0 never stops").changed() {
         commands.push(AppCommand::Target((percent > 0.0).then_some(0.01 * percent)));
     }

@@ -1,10 +1,10 @@
 //! The camera, the picture and the limits of light transport.
 
-use super::fields::{Number, color, length_speed, number_row, rows, text_row, vector_row};
+use super::fields::{Number, color, count, length_speed, number, number_row, rows, text_row, vector_row};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit};
 use crate::scene::{Film, Render, ToneCurve};
-use egui::{ComboBox, DragValue, Slider, Ui};
+use egui::{ComboBox, Slider, Ui};
 
 /// The camera's position, direction and field of view.
 pub(super) fn camera_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
@@ -59,22 +59,23 @@ pub(super) fn display_rows(ui: &mut Ui, film: &mut Film) {
 fn size_ui(ui: &mut Ui, film: &mut Film) {
     ui.label("Size");
     ui.horizontal(|ui| {
-        ui.add(DragValue::new(&mut film.width).range(1..=16384).suffix(" px").update_while_editing(false))
-            .accessible_name("Width");
+        count(ui, "Width", &mut film.width, 1..=16384, 1.0);
         ui.label("×");
-        ui.add(DragValue::new(&mut film.height).range(1..=16384).suffix(" px").update_while_editing(false))
-            .accessible_name("Height");
+        count(ui, "Height", &mut film.height, 1..=16384, 1.0);
+        ui.weak("px");
     });
     ui.end_row();
 }
 
 /// The exposure slider, stops.
 fn exposure_ui(ui: &mut Ui, film: &mut Film) {
-    let slider = Slider::new(&mut film.exposure, -8.0..=8.0).fixed_decimals(1).step_by(0.1).suffix(" EV");
-    let slider = slider.clamping(egui::SliderClamping::Edits);
-    ui.add(slider)
-        .accessible_name("Exposure")
-        .on_hover_text("Exposure of the display and of PNG files; does not restart rendering");
+    const TIP: &str = "Exposure of the display and of PNG files; does not restart rendering";
+    let spec = Number::any(0.02).within(-Film::MOST_EXPOSURE..=Film::MOST_EXPOSURE).unit("EV").tip(TIP);
+    ui.horizontal(|ui| {
+        let slider = Slider::new(&mut film.exposure, -8.0..=8.0).step_by(0.1).show_value(false);
+        ui.add(slider.clamping(egui::SliderClamping::Edits)).accessible_name("Exposure").on_hover_text(TIP);
+        number(ui, "Exposure", &mut film.exposure, &spec);
+    });
 }
 
 /// The choice of the tone curve.
@@ -94,10 +95,8 @@ fn tone_curve_ui(ui: &mut Ui, film: &mut Film) {
 
 fn render_ui(ui: &mut Ui, render: &mut Render) {
     ui.label("Bounces");
-    let field = DragValue::new(&mut render.max_bounces).range(1..=1024).speed(0.1).update_while_editing(false);
-    ui.add(field)
-        .accessible_name("Bounces")
-        .on_hover_text("Maximum scattering events on a path; 1 renders direct light only");
+    let field = count(ui, "Bounces", &mut render.max_bounces, 1..=1024, 0.1);
+    field.on_hover_text("Maximum scattering events on a path; 1 renders direct light only");
     ui.end_row();
     ui.label("Background");
     ui.horizontal(|ui| color(ui, "Background", &mut render.background, &Number::strength(0.005)));

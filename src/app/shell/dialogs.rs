@@ -7,7 +7,8 @@ use crate::app::commands::{Action, Answer, AppCommand, Next};
 use crate::app::document::Document;
 use crate::app::files::PathField;
 use crate::app::keeping::LeftOverRow;
-use egui::{Context, DragValue, Grid, Id, Modal, ScrollArea, TextEdit, Ui};
+use crate::app::panels::count;
+use egui::{Context, Grid, Id, Modal, ScrollArea, TextEdit, Ui};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -135,8 +136,8 @@ fn surface_ui(ui: &mut Ui, name: &str, steps: &mut usize, commands: &mut Vec<App
     ui.heading("Export surface");
     ui.label(format!("Exports {name} in world space, as a mesh (.obj) or as control points (.bpt)."));
     ui.horizontal(|ui| {
-        let label = ui.label("Quads along each side of a patch");
-        ui.add(DragValue::new(steps).range(1..=1024).speed(0.2)).labelled_by(label.id);
+        ui.label("Quads along each side of a patch");
+        count(ui, "Quads along each side of a patch", steps, 1..=1024, 0.2);
         ui.weak("(.obj only)");
     });
     ui.add_space(4.0);

@@ -40,6 +40,37 @@ fn a_number_field_takes_arithmetic_and_decimal_commas_and_no_nan() {
 }
 
 #[test]
+fn a_number_field_takes_relative_numbers_once() {
+    let mut ui = open("report");
+    let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    select(&mut ui, Item::Object(ball));
+    let steps = [("2", 2.0), ("+0.5", 2.5), ("*2", 5.0), ("-=1", 4.0), ("/4", 1.0), ("-=0.25", 0.75), ("+=0,25", 1.0)];
+    for (text, expected) in steps {
+        type_number(&mut ui, "Radius", text);
+        ui.run_steps(3);
+        let Shape::Sphere { radius, .. } = scene(&ui).objects[ball].shape else { panic!("a sphere") };
+        assert_eq!(radius, expected, "after {text}");
+    }
+    type_number(&mut ui, "Centre x", "-3");
+    let Shape::Sphere { center, .. } = scene(&ui).objects[ball].shape else { panic!("a sphere") };
+    assert_eq!(center.x, -3.0, "a sign sets the number");
+}
+
+#[test]
+fn a_refused_text_gets_one_message() {
+    for (text, messages) in [("abc", 1), ("1/0", 1), ("+", 1), ("0.25", 0), ("+0.1", 0)] {
+        let mut ui = open("report");
+        let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+        select(&mut ui, Item::Object(ball));
+        let before = scene(&ui).clone();
+        type_number(&mut ui, "Radius", text);
+        ui.run_steps(3);
+        assert_eq!(*scene(&ui) == before, messages == 1, "{text}");
+        assert_eq!(ui.state().toasts.len(), messages, "messages after {text}");
+    }
+}
+
+#[test]
 fn a_field_takes_no_number_that_the_scene_cannot_hold() {
     let mut ui = open("report");
     let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
