@@ -18,6 +18,14 @@ pub(crate) enum Action {
     ToggleHistory,
     Duplicate,
     Delete,
+    SplitU,
+    SplitV,
+    SplitBoth,
+    Flatten,
+    Smooth,
+    ResetPoints,
+    ToggleTangents,
+    NextMirror,
     TogglePause,
     Restart,
     Fit,
@@ -84,6 +92,14 @@ const TABLE: &[Row] = &[
     (Action::SelectRow, "Select row, then the whole strip", &[(NONE, Key::I)]),
     (Action::SelectColumn, "Select column, then the whole strip", &[(NONE, Key::J)]),
     (Action::ToggleFalloff, "Soft selection", &[(NONE, Key::O)]),
+    (Action::SplitBoth, "Split patch into four", &[(CTRL, Key::U)]),
+    (Action::SplitV, "Split patch in v (insert column)", &[(Modifiers::SHIFT, Key::U)]),
+    (Action::SplitU, "Split patch in u (insert row)", &[(NONE, Key::U)]),
+    (Action::Flatten, "Flatten control points", &[(Modifiers::SHIFT, Key::P)]),
+    (Action::Smooth, "Smooth control points", &[(Modifiers::SHIFT, Key::S)]),
+    (Action::ResetPoints, "Reset control points", &[(Modifiers::SHIFT, Key::R)]),
+    (Action::ToggleTangents, "Keep tangents across seams", &[(NONE, Key::G)]),
+    (Action::NextMirror, "Mirror symmetry", &[(NONE, Key::M)]),
     (Action::TogglePause, "Pause or resume", &[(NONE, Key::Space)]),
     (Action::Restart, "Restart rendering", &[(NONE, Key::R)]),
     (Action::Fit, "Fit picture", &[(NONE, Key::F), (CTRL, Key::Num0)]),
@@ -117,6 +133,32 @@ impl Action {
     /// The action's label in menus.
     pub(crate) fn label(self) -> &'static str {
         TABLE.iter().find(|(action, ..)| *action == self).map_or("", |(_, label, _)| label)
+    }
+
+    /// What the action does, for its tooltip; empty where the label says it.
+    pub(crate) fn tip(self) -> &'static str {
+        match self {
+            Self::SplitU | Self::SplitV | Self::SplitBoth => {
+                "Halves the shown patch exactly, and with it the whole strip of patches across, so that seams stay closed. \
+                 The surface stays the same."
+            }
+            Self::Flatten => {
+                "Moves the selected control points, or all of the shown patch, into the plane nearest to them"
+            }
+            Self::Smooth => {
+                "Moves the selected control points, or all of the shown patch, half the way to the mean of their \
+                 neighbours. Corners of the surface stay."
+            }
+            Self::ResetPoints => {
+                "Moves the selected control points, or all of the shown patch, onto the bilinear surface of the patch's \
+                 corners"
+            }
+            Self::ToggleTangents => {
+                "Keeps smooth seams smooth (G1): the neighbours of a moved control point across the seam follow it"
+            }
+            Self::NextMirror => "Moves control points in pairs, mirrored across a plane: off, x, y, z in turn",
+            _ => "",
+        }
     }
 
     /// The action's first shortcut as text; empty for an action without a shortcut.
@@ -185,6 +227,8 @@ mod tests {
         assert!(row(Action::ExportSurface) < row(Action::Export), "consume_shortcut ignores Shift");
         assert!(row(Action::SelectNone) < row(Action::SelectAll), "consume_shortcut ignores Shift");
         assert!(row(Action::Redo) < row(Action::Undo), "consume_shortcut ignores Shift");
+        assert!(row(Action::ResetPoints) < row(Action::Restart), "consume_shortcut ignores Shift");
+        assert!(row(Action::SplitV) < row(Action::SplitU), "consume_shortcut ignores Shift");
         assert!(row(Action::Darker) < row(Action::Brighter), "consume_shortcut ignores Shift");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::action::Action;
 use super::purpose::Purpose;
+use crate::app::document::surface::Coupling;
 use crate::app::document::{Edit, Selection};
 use crate::scene::Camera;
 use egui::ThemePreference;
@@ -19,6 +20,8 @@ pub(crate) enum AppCommand {
     Select(Selection),
     /// Show the scene with this camera.
     View(Camera),
+    /// Change which control points move together.
+    Couple(Coupling),
     /// Ask for a file to add to the scene.
     AddFrom(Purpose),
     /// Use a file that was dropped onto the window.

@@ -3,8 +3,12 @@
 use super::handles::{self, Handle};
 use super::names::free_name;
 use super::selection::{Item, PointIndex};
-use crate::scene::{Camera, Color, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Texture};
+use crate::geometry::bezier::ControlNet;
+use crate::scene::{
+    Camera, Color, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Shape, Texture,
+};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// A change of a scene; an index is the item's position in its list.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,8 +35,10 @@ pub(crate) enum Edit {
     Move(Vec<Handle>, DVec3),
     /// Moves each handle by its own vector in world space.
     MoveEach(Vec<(Handle, DVec3)>),
-    /// Places a control point of the object at this index, with the control points welded to it, object space.
-    Place(usize, PointIndex, DVec3),
+    /// Places control points of the object at this index at positions in object space, under this name of the edit.
+    Place(usize, Vec<(PointIndex, DVec3)>, &'static str),
+    /// Replaces the patches of the object at this index, under this name of the edit.
+    Patches(usize, Vec<ControlNet>, &'static str),
     /// Appends an object.
     AddObject(Object),
     /// Appends a material.
@@ -63,7 +69,7 @@ impl Edit {
             Self::Texture(index, _) => ("edit texture", *index),
             Self::Move(handles, _) => move_key(handles.first().copied()),
             Self::MoveEach(ways) => move_key(ways.first().map(|(handle, _)| *handle)),
-            Self::Place(object, ..) => ("move control point", *object),
+            Self::Place(object, _, name) | Self::Patches(object, _, name) => (name, *object),
             Self::AddObject(_) => ("add object", 0),
             Self::AddMaterial(_) => ("add material", 0),
             Self::AddLight(_) => ("add light", 0),
@@ -115,7 +121,8 @@ impl Edit {
             Self::Texture(index, texture) => replace_texture(scene, index, texture),
             Self::Move(handles, by) => handles.into_iter().for_each(|handle| handle.translate(scene, by)),
             Self::MoveEach(ways) => ways.into_iter().for_each(|(handle, by)| handle.translate(scene, by)),
-            Self::Place(object, point, to) => handles::place(scene, object, point, to),
+            Self::Place(object, points, _) => handles::place(scene, object, &points),
+            Self::Patches(object, patches, _) => replace_patches(scene, object, patches),
             Self::AddObject(object) => scene.objects.push(object),
             Self::AddMaterial(material) => scene.materials.push(material),
             Self::AddLight(light) => scene.lights.push(light),
@@ -137,6 +144,14 @@ fn move_key(first: Option<Handle>) -> EditKey {
 fn replace<T>(list: &mut [T], index: usize, new: T) {
     if let Some(old) = list.get_mut(index) {
         *old = new;
+    }
+}
+
+fn replace_patches(scene: &mut Scene, object: usize, patches: Vec<ControlNet>) {
+    if let Some(Object { shape: Shape::Bezier(bezier), .. }) = scene.objects.get_mut(object) {
+        bezier.patches = Arc::new(patches);
+        // The patches now differ from the `.bpt` file.
+        bezier.file = None;
     }
 }
 
@@ -206,7 +221,7 @@ fn remove(scene: &mut Scene, item: Item) {
 mod tests {
     use super::*;
     use crate::math::Rgb;
-    use crate::scene::{Shape, TextureUse};
+    use crate::scene::TextureUse;
     use glam::DVec2;
 
     fn scene() -> Scene {

@@ -17,7 +17,9 @@ pub(super) fn edit_name(edit: &Edit, scene: &Scene) -> String {
         Edit::Light(index, _) => with_item(action, name_of(scene, Item::Light(*index))),
         Edit::Texture(index, _) => with_item(action, name_of(scene, Item::Texture(*index))),
         Edit::Move(handles, _) => move_name(action, handles, scene),
-        Edit::Place(object, ..) => with_item(&format!("{action} of"), name_of(scene, Item::Object(*object))),
+        Edit::Place(object, ..) | Edit::Patches(object, ..) => {
+            with_item(&format!("{action} of"), name_of(scene, Item::Object(*object)))
+        }
         Edit::AddObject(object) => with_item(action, Some(&object.name)),
         Edit::AddMaterial(material) => with_item(action, Some(&material.name)),
         Edit::AddLight(light) => with_item(action, Some(&light.name)),

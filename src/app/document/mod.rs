@@ -7,6 +7,7 @@
 //! | `handles` | the draggable points of a scene: which exist, where they lie, how they move |
 //! | `welds` | [`Welds`]: the welded control points of an object |
 //! | `growth` | sets of control points to select: all, rows, columns |
+//! | `surface/` | operations on the patches of an object, and which control points move together |
 //! | `placement` | where new items go |
 //! | `edit` | [`Edit`]: every change of a scene, as data |
 //! | `edit_name` | the names of edits in menus and in the history |
@@ -28,6 +29,7 @@ mod placement;
 mod selection;
 mod stamp;
 mod state;
+pub(crate) mod surface;
 mod welds;
 
 pub(crate) use edit::{Edit, texture_names, user_of};

@@ -85,6 +85,12 @@ impl Selection {
         }
     }
 
+    /// The control points that an operation on the surface changes: the selected ones, or else all of the shown patch.
+    pub(crate) fn operands(&self) -> BTreeSet<PointIndex> {
+        let all = || (0..16).map(|k| PointIndex { patch: self.patch, i: k / 4, j: k % 4 }).collect();
+        if self.points.is_empty() { all() } else { self.points.clone() }
+    }
+
     /// Selects the point alone, or toggles it with `extend`.
     pub(crate) fn click_point(&mut self, point: PointIndex, extend: bool) {
         self.patch = point.patch;

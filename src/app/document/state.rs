@@ -5,6 +5,7 @@ use super::edit_name::edit_name;
 use super::history::History;
 use super::selection::Selection;
 use super::stamp::Stamp;
+use super::surface::Coupling;
 use crate::scene::{Location, Scene, SceneFile};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,6 +22,8 @@ pub(crate) struct Document {
     stamp: Option<Stamp>,
     /// The item that the panels and the canvas show.
     pub(crate) selection: Selection,
+    /// Which control points move together. The scene file does not hold it.
+    pub(crate) coupling: Coupling,
     history: History<(Arc<SceneFile>, Selection), EditKey>,
 }
 
@@ -33,7 +36,15 @@ impl Document {
         };
         let selection = Selection::first_of(&file.scene);
         let (file, stamp) = (Arc::new(file), path.as_deref().and_then(Stamp::of));
-        Self { saved: Some(Arc::clone(&file)), file, path, stamp, selection, history: History::default() }
+        Self {
+            saved: Some(Arc::clone(&file)),
+            file,
+            path,
+            stamp,
+            selection,
+            coupling: Coupling::default(),
+            history: History::default(),
+        }
     }
 
     /// The document of recovered changes: `file` is the present scene, `stamp` the state of the scene's file that the changes are based
@@ -96,13 +107,14 @@ impl Document {
         format!("{}{name}", if self.is_dirty() { "*" } else { "" })
     }
 
-    /// Changes the scene, and selects an added item, or the camera after a removal. Edits with one key within one gesture
-    /// make one undo step.
+    /// Changes the scene, moves the control points that follow moved ones, and selects an added item, or the camera after a
+    /// removal. Edits with one key within one gesture make one undo step.
     pub(crate) fn edit(&mut self, edit: Edit) {
         let (key, selects) = (edit.key(), edit.selects(&self.file.scene));
         let name = edit_name(&edit, &self.file.scene);
         let mut scene = self.file.scene.clone();
         edit.apply(&mut scene);
+        self.coupling.follow(&self.file.scene, &mut scene);
         if scene == self.file.scene {
             return;
         }

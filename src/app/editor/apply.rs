@@ -2,6 +2,7 @@
 
 use super::state::Editor;
 use crate::app::commands::{Action, AppCommand, Next, Purpose};
+use crate::app::document::surface::Cut;
 use crate::app::document::{Direction, Edit, Item, new_items, user_of};
 use crate::app::shell::{Dialog, Palette};
 use crate::scene::Film;
@@ -25,6 +26,7 @@ impl Editor {
             AppCommand::Edit(edit) => self.edit(edit),
             AppCommand::Select(selection) => self.select(selection),
             AppCommand::View(camera) => self.show_camera(camera),
+            AppCommand::Couple(coupling) => self.document.coupling = coupling,
             AppCommand::AddFrom(purpose) => self.ask_for_path(ctx, purpose),
             AppCommand::Drop(path) => self.drop_file(ctx, path),
             AppCommand::GoTo(done) => self.document.go_to(done),
@@ -61,6 +63,12 @@ impl Editor {
             Action::ToggleHistory => self.show_history = !self.show_history,
             Action::Duplicate => self.duplicate(),
             Action::Delete => self.delete(),
+            Action::SplitU => self.split(Cut::U),
+            Action::SplitV => self.split(Cut::V),
+            Action::SplitBoth => self.split(Cut::Both),
+            Action::Flatten | Action::Smooth | Action::ResetPoints => self.fair(action),
+            Action::ToggleTangents => self.document.coupling.tangents = !self.document.coupling.tangents,
+            Action::NextMirror => self.next_mirror(),
             Action::TogglePause => self.rendering.toggle_pause(),
             Action::Restart => self.rendering.restart(),
             Action::Fit => self.canvas.fit(),

@@ -13,6 +13,7 @@
 //! | `outside` | follows changes of the scene's files by other programs |
 //! | `chosen_path` | uses a chosen path: open, save, export, add |
 //! | `selecting` | selects control points |
+//! | `shaping` | operations on the patches of the selected object |
 //! | `apply` | the one place that carries out commands |
 //! | `layout` | draws the content, then carries out the commands that its parts push |
 
@@ -27,6 +28,7 @@ mod preferences;
 mod recovery;
 mod scenes;
 mod selecting;
+mod shaping;
 mod state;
 mod views;
 

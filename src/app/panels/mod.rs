@@ -7,7 +7,8 @@
 //! | `icons` | icons of the kinds of items |
 //! | `typing` | typed numbers: relative numbers, and messages on texts that are no numbers |
 //! | `fields` | fields for names, numbers, vectors and colours |
-//! | `control_points` | the 4 x 4 control points of a patch |
+//! | `control_points` | the 4 x 4 control points of a patch, and the coordinates of the selected ones |
+//! | `coupling` | which control points move together |
 //! | `lights` | the properties of a light |
 //! | `materials` | the properties of a material |
 //! | `objects` | the properties of an object, with its control points and its material |
@@ -20,6 +21,7 @@
 //! | `progress` | display settings, counts, error, time of each pass |
 
 mod control_points;
+mod coupling;
 mod error_plot;
 mod expression;
 mod fields;

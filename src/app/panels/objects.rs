@@ -1,6 +1,7 @@
 //! The properties of an object.
 
 use super::control_points::control_points_ui;
+use super::coupling::coupling_ui;
 use super::fields::{Number, choice_row, length_speed, number_row, rows, text_row, vector_row};
 use super::materials::{Naming, material_ui};
 use crate::app::commands::AppCommand;
@@ -32,6 +33,7 @@ pub(super) fn object_ui(
     if let Shape::Bezier(bezier) = &object.shape {
         CollapsingHeader::new("Control points").default_open(true).show(ui, |ui| {
             control_points_ui(ui, document, index, bezier, commands);
+            coupling_ui(ui, document, bezier, commands);
         });
     }
     let material = document.scene().materials.iter().position(|material| material.name == object.material);

@@ -169,7 +169,7 @@ fn help_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         ("Alt+drag", "moves the camera around the selection, or around the point under the pointer"),
         ("Alt+Shift+drag, Alt+middle drag", "moves the camera sideways"),
         ("Alt+right drag, Alt+wheel", "moves the camera towards the pointer"),
-        ("Drag a number", "changes the number, slowly with Shift; a click starts typing"),
+        ("Drag a number", "changes the number, slowly with Shift; a click starts typing, also of +0.1, -=0.1, *2, /2"),
     ];
     ui.heading("Keys and mouse");
     ScrollArea::vertical().max_height(content_height(ui)).show(ui, |ui| {

@@ -1,5 +1,7 @@
 //! The menu bar, with buttons for frequent actions.
 
+use super::menu_item::{check_ui, item_ui};
+use super::surface_menu::surface_menu_ui;
 use crate::app::canvas::{automatic_step, steps_around};
 use crate::app::commands::{Action, AppCommand, Next};
 use crate::app::document::Document;
@@ -37,6 +39,7 @@ pub(crate) fn menu_ui(
         ui.menu_button("File", |ui| file_ui(ui, recent, commands));
         ui.menu_button("Edit", |ui| edit_ui(ui, document, visible, commands));
         ui.menu_button("Select", |ui| select_ui(ui, document, visible, commands));
+        ui.menu_button("Surface", |ui| surface_menu_ui(ui, document, commands));
         ui.menu_button("View", |ui| view_ui(ui, visible, commands));
         ui.menu_button("Render", |ui| {
             let pause = if paused { "Resume" } else { "Pause" };
@@ -106,7 +109,7 @@ fn edit_ui(ui: &mut Ui, document: &Document, visible: Visibility, commands: &mut
         let label = format!("{} {}", action.label(), what.unwrap_or_default());
         item_ui(ui, action, label.trim_end(), what.is_some(), commands);
     }
-    toggle_ui(ui, Action::ToggleHistory, visible.history, commands);
+    check_ui(ui, Action::ToggleHistory, visible.history, commands);
     ui.separator();
     for action in [Action::Duplicate, Action::Delete] {
         item_ui(ui, action, action.label(), true, commands);
@@ -128,7 +131,7 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
         (Action::ToggleXRay, visible.x_ray),
         (Action::TogglePanels, visible.panels),
     ] {
-        toggle_ui(ui, action, on, commands);
+        check_ui(ui, action, on, commands);
     }
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
     ui.separator();
@@ -158,7 +161,7 @@ fn select_ui(ui: &mut Ui, document: &Document, visible: Visibility, commands: &m
         item_ui(ui, action, action.label(), enabled, commands);
     }
     ui.separator();
-    toggle_ui(ui, Action::ToggleFalloff, visible.falloff, commands);
+    check_ui(ui, Action::ToggleFalloff, visible.falloff, commands);
     ui.menu_button("Snapping grid", |ui| grid_ui(ui, document, visible.grid, commands));
 }
 
@@ -179,14 +182,6 @@ fn grid_ui(ui: &mut Ui, document: &Document, chosen: Option<f64>, commands: &mut
     }
 }
 
-/// A check mark before an action that shows or hides a part of the window.
-fn toggle_ui(ui: &mut Ui, action: Action, mut on: bool, commands: &mut Vec<AppCommand>) {
-    let text = format!("{}  ({})", action.label(), action.shortcut(ui.ctx()));
-    if ui.checkbox(&mut on, text).clicked() {
-        commands.push(AppCommand::Do(action));
-    }
-}
-
 fn named_views_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     let mut view_ui = |ui: &mut Ui, view| {
         let action = Action::View(view);
@@ -199,13 +194,6 @@ fn named_views_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
     });
     for view in [NamedView::Own, NamedView::Selection, NamedView::All, NamedView::Previous, NamedView::Next] {
         view_ui(ui, view);
-    }
-}
-
-fn item_ui(ui: &mut Ui, action: Action, label: &str, enabled: bool, commands: &mut Vec<AppCommand>) {
-    let button = Button::new(label).shortcut_text(action.shortcut(ui.ctx()));
-    if ui.add_enabled(enabled, button).clicked() {
-        commands.push(AppCommand::Do(action));
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `menu_item` | the entries of menus |
+//! | `surface_menu` | the menu of operations on the patches of the selected object |
 //! | `menu` | the menu bar, with buttons for frequent actions |
 //! | `notices` | messages over the picture: failures, problems of the scene, a lack of light, a slow file dialog |
 //! | `status_bar` | engine status, counts, the pixel under the pointer, the zoom |
@@ -18,11 +20,13 @@ mod drop_hint;
 mod first_hint;
 mod history;
 mod menu;
+mod menu_item;
 mod notices;
 mod palette;
 mod primary;
 mod recovery;
 mod status_bar;
+mod surface_menu;
 
 pub(crate) use dialogs::{Dialog, dialog_ui};
 pub(crate) use drop_hint::{drop_hint, drop_hint_ui};

@@ -17,6 +17,7 @@
 //! | `recovery` | unsaved changes of windows that ended |
 //! | `preferences` | remembered looks and folders, recent files |
 //! | `outside` | files that other programs change |
+//! | `surface` | splitting and fairing of patches; control points that move together |
 //! | `fields` | typed numbers and names |
 
 mod canvas;
@@ -34,6 +35,7 @@ mod panels;
 mod preferences;
 mod recovery;
 mod selecting;
+mod surface;
 mod viewpoint;
 
 use crate::app::document::{Handle, Item, Selection, Welds, handles};

@@ -23,7 +23,8 @@ fn a_control_point_is_edited_as_numbers() {
     let mut ui = open("report");
     let sheet = first_object(&ui, |shape| matches!(shape, Shape::Bezier(_)));
     select(&mut ui, Item::Object(sheet));
-    type_number(&mut ui, "P[1][2] y", "-0.25");
+    click(&mut ui, "P[1][2]");
+    type_number(&mut ui, "Position y", "-0.25");
     let Shape::Bezier(bezier) = &scene(&ui).objects[sheet].shape else { panic!("a Bezier object") };
     assert_eq!(bezier.patches[0].points[1][2].y, -0.25);
     assert_eq!(bezier.file, None, "a .bpt file would hold other points");
@@ -36,7 +37,8 @@ fn every_patch_of_an_object_can_be_reached() {
     select(&mut ui, Item::Object(teapot));
     type_number(&mut ui, "Patch", "31");
     assert_eq!(ui.state().document.selection.patch, 31);
-    type_number(&mut ui, "P[0][0] x", "0.5");
+    click(&mut ui, "P[0][0]");
+    type_number(&mut ui, "Position x", "0.5");
     let Shape::Bezier(bezier) = &scene(&ui).objects[teapot].shape else { panic!("a Bezier object") };
     assert_eq!(bezier.patches[31].points[0][0].x, 0.5);
 }

@@ -1,0 +1,24 @@
+//! Operations on the patches of an object. Positions are in object space, unless a function says world space.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `connectivity` | [`Connectivity`]: control points at one position, edges, seams |
+//! | `mirror` | [`Mirror`]: the plane of a symmetry, and the partner of each position |
+//! | `tangents` | tangent planes across seams, kept while control points move |
+//! | `coupling` | [`Coupling`]: which control points follow the moved ones |
+//! | `split` | exact splitting of patches and of strips of patches |
+//! | `plane_fit` | the plane nearest to points |
+//! | `fairing` | flattening, smoothing and resetting of control points |
+
+mod connectivity;
+mod coupling;
+mod fairing;
+mod mirror;
+mod plane_fit;
+mod split;
+mod tangents;
+
+pub(crate) use coupling::Coupling;
+pub(crate) use fairing::{flattened, reset, smoothed};
+pub(crate) use mirror::Mirror;
+pub(crate) use split::{Cut, split};

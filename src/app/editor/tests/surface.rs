@@ -1,0 +1,171 @@
+use super::*;
+use crate::app::document::PointIndex;
+use crate::scene::Bezier;
+use glam::DVec3;
+
+fn object(ui: &Ui) -> usize {
+    let Item::Object(object) = ui.state().document.selection.item else { panic!("an object is selected") };
+    object
+}
+
+fn bezier(ui: &Ui) -> Bezier {
+    ui.state().document.selection.bezier(scene(ui)).unwrap().clone()
+}
+
+fn point(ui: &Ui, patch: usize, i: usize, j: usize) -> DVec3 {
+    bezier(ui).patches[patch].points[i][j]
+}
+
+/// The number of different positions of control points.
+fn positions(ui: &Ui) -> usize {
+    Welds::of(&bezier(ui)).groups().len()
+}
+
+/// Clicks an entry of the menu "Surface"; the label of an entry ends with its shortcut.
+fn choose(ui: &mut Ui, entry: &str) {
+    click(ui, "Surface");
+    ui.get_by(|node| node.role() == Role::Button && node.label().is_some_and(|label| label.starts_with(entry))).click();
+    ui.run_steps(3);
+}
+
+#[test]
+fn several_points_show_their_centre_and_move_by_typed_numbers() {
+    let mut ui = open("report");
+    click(&mut ui, "P[1][1]");
+    for name in ["P[1][2]", "P[2][2]"] {
+        ui.get_by_role_and_label(Role::Button, name).click_modifiers(Modifiers::COMMAND);
+        ui.run_steps(3);
+    }
+    assert!(ui.query_by_label("Centre of 3 points").is_some(), "the title");
+    let before = bezier(&ui).patches[0];
+    let moved = [(1, 1), (1, 2), (2, 2)];
+    let center = moved.iter().map(|(i, j)| before.points[*i][*j].z).sum::<f64>() / 3.0;
+    type_number(&mut ui, "Position z", "0.25");
+    for (i, j) in (0..16).map(|k| (k / 4, k % 4)) {
+        let by = if moved.contains(&(i, j)) { DVec3::Z * (0.25 - center) } else { DVec3::ZERO };
+        // Coordinates below 1, once rounded.
+        assert!(point(&ui, 0, i, j).distance(before.points[i][j] + by) < 1e-15, "P[{i}][{j}]");
+    }
+    assert_eq!(ui.state().document.undoable(), Some("move control points of sheet"));
+    type_number(&mut ui, "Position z", "+0.5");
+    assert!((point(&ui, 0, 1, 1).z - (before.points[1][1].z + 0.75 - center)).abs() < 1e-15, "a relative number");
+    ui.get_by_role_and_label(Role::Button, "P[1][2]").click_modifiers(Modifiers::SHIFT);
+    ui.run_steps(3);
+    assert!(ui.query_by_label("Centre of 2 points").is_some(), "Shift removes a point");
+}
+
+#[test]
+fn a_split_keeps_the_surface_and_closes_every_seam() {
+    let mut ui = open("teapot");
+    let before = bezier(&ui);
+    click(&mut ui, "P[1][1]");
+    choose(&mut ui, "Split patch in u");
+    let after = bezier(&ui);
+    assert!(after.patches.len() > before.patches.len() + 1, "the strip is split");
+    assert!(ui.state().document.selection.points.is_empty(), "other points have the indices now");
+    assert_eq!(ui.state().document.undoable(), Some("split patch of teapot"));
+    assert_eq!(after.file, None, "a .bpt file would hold other patches");
+    let area = |bezier: &Bezier| bezier.patches.iter().map(|net| net.area()).sum::<f64>();
+    // The quadrature is good to about a millionth, and better on smaller patches.
+    assert!((area(&after) / area(&before) - 1.0).abs() < 1e-4, "{} is not {}", area(&after), area(&before));
+    press(&mut ui, Key::Z);
+    assert_eq!(bezier(&ui), before);
+}
+
+#[test]
+fn keys_split_the_strips_of_the_shown_patch_with_a_message() {
+    let mut ui = open("report");
+    press(&mut ui, Key::U);
+    assert_eq!((bezier(&ui).patches.len(), positions(&ui)), (4, 49));
+    assert_eq!(ui.state().toasts.len(), 1, "the message");
+    for (modifiers, patches) in [(Modifiers::NONE, 6), (Modifiers::SHIFT, 9)] {
+        ui.key_press_modifiers(modifiers, Key::U);
+        ui.run_steps(3);
+        assert_eq!(bezier(&ui).patches.len(), patches, "U splits the strip of the shown patch");
+    }
+}
+
+#[test]
+fn flatten_smooth_and_reset_are_edits_with_names() {
+    let mut ui = open("report");
+    for (entry, name) in [
+        ("Smooth control points", "smooth points"),
+        ("Flatten control points", "flatten points"),
+        ("Reset control points", "reset points"),
+    ] {
+        let before = bezier(&ui);
+        choose(&mut ui, entry);
+        assert_ne!(bezier(&ui), before, "{entry} changes the patch");
+        assert_eq!(ui.state().document.undoable(), Some(format!("{name} of sheet").as_str()));
+        press(&mut ui, Key::Z);
+        assert_eq!(bezier(&ui), before, "one step reverts it");
+    }
+    click(&mut ui, "P[1][1]");
+    let before = scene(&ui).clone();
+    choose(&mut ui, "Flatten control points");
+    assert_eq!((scene(&ui) == &before, ui.state().toasts.len()), (true, 1), "a point is flat, with a message");
+}
+
+#[test]
+fn operations_on_patches_need_patches() {
+    let mut ui = open("report");
+    let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    select(&mut ui, Item::Object(ball));
+    let before = scene(&ui).clone();
+    ui.key_press(Key::U);
+    ui.run_steps(2);
+    assert_eq!((scene(&ui) == &before, ui.state().toasts.len()), (true, 1));
+}
+
+#[test]
+fn tangents_across_a_seam_are_kept_where_wanted() {
+    let mut ui = open("report");
+    ui.key_press(Key::U);
+    ui.run_steps(3);
+    let straight = |ui: &Ui| {
+        let [a, seam, b] = [point(ui, 0, 2, 1), point(ui, 0, 3, 1), point(ui, 1, 1, 1)];
+        (a - seam).normalize().cross((b - seam).normalize()).length()
+    };
+    assert!(straight(&ui) < 1e-12, "a split is smooth");
+    click(&mut ui, "P[2][1]");
+    type_number(&mut ui, "Position y", "+0.2");
+    assert!(straight(&ui) > 0.1, "a point alone makes a crease");
+    press(&mut ui, Key::Z);
+    ui.key_press(Key::G);
+    ui.run_steps(2);
+    assert!(ui.state().document.coupling.tangents, "G switches the tangents on");
+    type_number(&mut ui, "Position y", "+0.2");
+    // The legs have lengths of about 0.1.
+    assert!(straight(&ui) < 1e-12, "{}", straight(&ui));
+    click(&mut ui, "P[3][1]");
+    let neighbour = point(&ui, 1, 1, 1);
+    type_number(&mut ui, "Position y", "+0.1");
+    assert!((point(&ui, 1, 1, 1) - neighbour).distance(0.1 * DVec3::Y) < 1e-12, "neighbours move with the seam");
+}
+
+#[test]
+fn points_move_in_mirrored_pairs() {
+    let mut ui = open("report");
+    choose(&mut ui, "Reset control points");
+    // The corners of a square patch around the origin of the object.
+    let object = object(&ui);
+    let half = [-1.5, -0.5, 0.5, 1.5];
+    let place = |k: usize| (PointIndex { patch: 0, i: k / 4, j: k % 4 }, DVec3::new(half[k / 4], 0.0, half[k % 4]));
+    let square = crate::app::document::Edit::Place(object, (0..16).map(place).collect(), "move control points");
+    ui.state_mut().document.edit(square);
+    ui.run_steps(2);
+    ui.key_press(Key::M);
+    ui.run_steps(3);
+    assert!(ui.query_by_label("16 of 16 positions have a mirror image").is_some());
+    click(&mut ui, "P[3][1]");
+    type_number(&mut ui, "Position x", "2");
+    assert_eq!((point(&ui, 0, 3, 1).x, point(&ui, 0, 0, 1).x), (2.0, -2.0));
+    type_number(&mut ui, "Mirror plane", "7");
+    type_number(&mut ui, "Position x", "3");
+    assert_eq!(point(&ui, 0, 0, 1).x, -2.0, "no point has a mirror image in another plane");
+    for _ in 0..3 {
+        ui.key_press(Key::M);
+        ui.run_steps(2);
+    }
+    assert_eq!(ui.state().document.coupling.mirror, None, "M goes through the axes");
+}
