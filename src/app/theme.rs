@@ -68,6 +68,18 @@ pub(crate) mod overlay {
     pub(crate) const FAINT: Color32 = Color32::from_rgba_premultiplied(110, 136, 170, 190);
     /// The arrow along the surface normal.
     pub(crate) const NORMAL: Color32 = Color32::from_rgb(225, 150, 255);
+    /// Isolines.
+    pub(crate) const ISOLINE: Color32 = Color32::from_rgb(240, 244, 255);
+    /// Negative, no and positive curvature.
+    pub(crate) const CURVATURE: [Color32; 3] =
+        [Color32::from_rgb(20, 70, 200), Color32::from_rgb(236, 236, 228), Color32::from_rgb(205, 40, 20)];
+    /// The stripes of reflection lines.
+    pub(crate) const ZEBRA: [Color32; 2] = [Color32::from_rgb(14, 14, 18), Color32::from_rgb(246, 246, 246)];
+    /// The opacity of curvature and reflection lines: some of the picture shows through.
+    pub(crate) const ANALYSIS_OPACITY: f32 = 0.9;
+    /// The background and the text of a legend over the picture.
+    pub(crate) const LEGEND: Color32 = Color32::from_rgba_premultiplied(16, 17, 20, 225);
+    pub(crate) const LEGEND_TEXT: Color32 = Color32::from_rgb(230, 232, 238);
     /// A light.
     pub(crate) const LIGHT: Color32 = Color32::from_rgb(255, 236, 130);
 }

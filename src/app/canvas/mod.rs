@@ -23,8 +23,10 @@
 //! | `readout` | the way of a drag in numbers |
 //! | `handle_widgets` | tooltips and accessible names of handles and gizmo |
 //! | `grasp` | [`Grasp`](grasp::Grasp): pointer and keys on handles and gizmo |
+//! | `analysis/` | isolines, curvature and reflection lines of the selected surface |
 //! | `widget` | [`Canvas`]: pointer and keyboard input on the picture |
 
+mod analysis;
 mod drag;
 mod falloff;
 mod gizmo;
@@ -48,6 +50,7 @@ mod view;
 mod visibility;
 mod widget;
 
+pub(crate) use analysis::Analysis;
 pub(crate) use projection::Projection;
 pub(crate) use snap::{automatic_step, steps_around};
 #[cfg(test)]

@@ -93,17 +93,22 @@ impl Prepared {
     /// The primitives of a shape, with the patches of `before` that it keeps. A shape that cannot be rendered has none.
     fn new(shape: &Shape, before: Option<&Self>) -> Self {
         let primitives = match shape {
-            Shape::Quad { corner, edge_u, edge_v } => {
-                vec![(0, Primitive::Quad(Quad::new(*corner, *edge_u, *edge_v)))]
-            }
-            Shape::Sphere { center, radius } if *radius > 0.0 => {
-                vec![(0, Primitive::Sphere(Sphere { center: *center, radius: *radius }))]
-            }
-            Shape::Sphere { .. } => Vec::new(),
-            Shape::Plane { point, normal, u_axis } => vec![(0, Primitive::Plane(Plane::new(*point, *normal, *u_axis)))],
             Shape::Bezier(bezier) => patches(bezier, before.map_or(&[], |before| &before.primitives)),
+            simple => simple_primitive(simple).map(|primitive| (0, primitive)).into_iter().collect(),
         };
         Self { shape: shape.clone(), primitives }
+    }
+}
+
+/// The primitive of a shape without patches; `None` for patches, and for a shape that cannot be rendered.
+pub(super) fn simple_primitive(shape: &Shape) -> Option<Primitive> {
+    match shape {
+        Shape::Quad { corner, edge_u, edge_v } => Some(Primitive::Quad(Quad::new(*corner, *edge_u, *edge_v))),
+        Shape::Sphere { center, radius } if *radius > 0.0 => {
+            Some(Primitive::Sphere(Sphere { center: *center, radius: *radius }))
+        }
+        Shape::Plane { point, normal, u_axis } => Some(Primitive::Plane(Plane::new(*point, *normal, *u_axis))),
+        Shape::Sphere { .. } | Shape::Bezier(_) => None,
     }
 }
 

@@ -1,5 +1,6 @@
 //! The canvas widget: the picture with its handles, and the pointer and keyboard input on it.
 
+use super::analysis::AnalysisLayer;
 use super::grasp::Grasp;
 use super::navigation::Navigation;
 use super::pixels;
@@ -29,6 +30,7 @@ pub(crate) struct Canvas {
     /// Whether the picture has the size of the canvas.
     pub(crate) matches_window: bool,
     pub(crate) navigation: Navigation,
+    pub(crate) analysis: AnalysisLayer,
     /// What the camera sees of the handles.
     pub(crate) sight: Sight,
     /// Input on the handles.
@@ -44,6 +46,7 @@ impl Default for Canvas {
             show_handles: true,
             matches_window: false,
             navigation: Navigation::default(),
+            analysis: AnalysisLayer::default(),
             sight: Sight::default(),
             grasp: Grasp::default(),
         }
@@ -117,6 +120,7 @@ impl Canvas {
         }
         let shows_handles = self.show_handles;
         let stage = Stage { document, transform, projection, sight: &self.sight, shows_handles };
+        self.analysis.show(ui, &stage);
         let takes_pointer = !self.navigation.takes_pointer(ui);
         self.grasp.ui(ui, &stage, canvas, takes_pointer, commands);
         !self.grasp.is_holding() && self.navigation.navigate(ui, &stage, camera, canvas, commands)

@@ -47,6 +47,10 @@ pub(crate) enum Action {
     SelectRow,
     SelectColumn,
     ToggleFalloff,
+    ToggleIsolines,
+    ToggleMeanCurvature,
+    ToggleGaussianCurvature,
+    ToggleZebra,
     TogglePanels,
     FullScreen,
     Palette,
@@ -123,6 +127,10 @@ const TABLE: &[Row] = &[
     (Action::MatchWindow, "Match window", &[(NONE, Key::W)]),
     (Action::ToggleHandles, "Show handles", &[(NONE, Key::H)]),
     (Action::ToggleXRay, "Show hidden handles (X-ray)", &[(Modifiers::ALT, Key::Z)]),
+    (Action::ToggleZebra, "Show reflection lines (zebra)", &[(CTRL_SHIFT, Key::K)]),
+    (Action::ToggleIsolines, "Show isolines", &[(CTRL, Key::K)]),
+    (Action::ToggleGaussianCurvature, "Show Gaussian curvature", &[(Modifiers::SHIFT, Key::K)]),
+    (Action::ToggleMeanCurvature, "Show mean curvature", &[(NONE, Key::K)]),
     (Action::TogglePanels, "Show panels", &[(CTRL, Key::B)]),
     (Action::FullScreen, "Full screen", &[(NONE, Key::F11)]),
     (Action::Palette, "Find a command…", &[(CTRL, Key::P)]),
@@ -155,6 +163,16 @@ impl Action {
             }
             Self::ToggleTangents => {
                 "Keeps smooth seams smooth (G1): the neighbours of a moved control point across the seam follow it"
+            }
+            Self::ToggleIsolines => "Lines of constant u and v on the selected surface, at quarters of each patch",
+            Self::ToggleMeanCurvature => {
+                "The mean of the principal curvatures of the selected surface, positive where it bends towards its outside"
+            }
+            Self::ToggleGaussianCurvature => {
+                "The product of the principal curvatures of the selected surface: positive on bowls, negative on saddles"
+            }
+            Self::ToggleZebra => {
+                "Stripes that the selected surface reflects: a kink in a stripe is a crease, a corner a jump of curvature"
             }
             Self::NextMirror => "Moves control points in pairs, mirrored across a plane: off, x, y, z in turn",
             _ => "",
@@ -229,6 +247,8 @@ mod tests {
         assert!(row(Action::Redo) < row(Action::Undo), "consume_shortcut ignores Shift");
         assert!(row(Action::ResetPoints) < row(Action::Restart), "consume_shortcut ignores Shift");
         assert!(row(Action::SplitV) < row(Action::SplitU), "consume_shortcut ignores Shift");
+        assert!(row(Action::ToggleZebra) < row(Action::ToggleIsolines), "consume_shortcut ignores Shift");
+        assert!(row(Action::ToggleGaussianCurvature) < row(Action::ToggleMeanCurvature), "as above");
         assert!(row(Action::Darker) < row(Action::Brighter), "consume_shortcut ignores Shift");
     }
 }

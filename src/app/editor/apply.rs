@@ -90,6 +90,10 @@ impl Editor {
             Action::SelectRow => self.select_lines(Direction::Row),
             Action::SelectColumn => self.select_lines(Direction::Column),
             Action::ToggleFalloff => self.toggle_falloff(),
+            Action::ToggleIsolines
+            | Action::ToggleMeanCurvature
+            | Action::ToggleGaussianCurvature
+            | Action::ToggleZebra => self.canvas.analysis.analysis.toggle(action),
             Action::TogglePanels => self.show_panels = !self.show_panels,
             Action::FullScreen => toggle_full_screen(ctx),
             Action::Palette => self.dialog = Some(Dialog::Palette(Palette::default())),

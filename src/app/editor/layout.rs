@@ -78,6 +78,7 @@ impl Editor {
             match_window: canvas.matches_window,
             handles: canvas.show_handles,
             x_ray: canvas.sight.x_ray,
+            analysis: canvas.analysis.analysis,
             falloff: canvas.grasp.falloff.on,
             grid: canvas.grasp.grid,
             panels: self.show_panels,

@@ -69,8 +69,8 @@ fn size_ui(ui: &mut Ui, film: &mut Film) {
 
 /// The exposure slider, stops.
 fn exposure_ui(ui: &mut Ui, film: &mut Film) {
-    const TIP: &str = "Exposure of the display and of PNG files; does not restart rendering";
-    let spec = Number::any(0.02).within(-Film::MOST_EXPOSURE..=Film::MOST_EXPOSURE).unit("EV").tip(TIP);
+    const TIP: &str = "Exposure of the display and of PNG files in stops; does not restart rendering";
+    let spec = Number::any(0.02).within(-Film::MOST_EXPOSURE..=Film::MOST_EXPOSURE).tip(TIP);
     ui.horizontal(|ui| {
         let slider = Slider::new(&mut film.exposure, -8.0..=8.0).step_by(0.1).show_value(false);
         ui.add(slider.clamping(egui::SliderClamping::Edits)).accessible_name("Exposure").on_hover_text(TIP);

@@ -2,7 +2,7 @@
 
 use super::menu_item::{check_ui, item_ui};
 use super::surface_menu::surface_menu_ui;
-use crate::app::canvas::{automatic_step, steps_around};
+use crate::app::canvas::{Analysis, automatic_step, steps_around};
 use crate::app::commands::{Action, AppCommand, Next};
 use crate::app::document::Document;
 use crate::app::viewpoint::{NamedView, Side};
@@ -18,6 +18,7 @@ pub(crate) struct Visibility {
     pub(crate) match_window: bool,
     pub(crate) handles: bool,
     pub(crate) x_ray: bool,
+    pub(crate) analysis: Analysis,
     /// Whether soft selection is on.
     pub(crate) falloff: bool,
     /// The step of the snapping grid, scene units; `None` for the automatic step.
@@ -133,6 +134,12 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
     ] {
         check_ui(ui, action, on, commands);
     }
+    for action in
+        [Action::ToggleIsolines, Action::ToggleMeanCurvature, Action::ToggleGaussianCurvature, Action::ToggleZebra]
+    {
+        check_ui(ui, action, visible.analysis.shows(action), commands);
+    }
+    ui.separator();
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
     ui.separator();
     let current = ui.ctx().options(|options| options.theme_preference);

@@ -4,6 +4,7 @@ use crate::app::document::handles::{control_points, weld_groups};
 use crate::app::document::selection::PointIndex;
 use crate::scene::Bezier;
 use glam::DVec3;
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A side of a patch: 0 is u = 0, 1 is u = 1, 2 is v = 0, 3 is v = 1.
@@ -37,7 +38,8 @@ pub(super) struct Connectivity {
     nodes: Vec<BTreeSet<PointIndex>>,
     /// The node of each control point, 16 a patch.
     node_of: Vec<usize>,
-    edges: BTreeMap<EdgeKey, Vec<Side>>,
+    /// Made at the first use: a drag without tangents needs no edges.
+    edges: OnceCell<BTreeMap<EdgeKey, Vec<Side>>>,
 }
 
 impl Connectivity {
@@ -48,12 +50,17 @@ impl Connectivity {
         for (node, points) in nodes.iter().enumerate() {
             points.iter().for_each(|point| node_of[index(*point)] = node);
         }
-        let mut mesh = Self { nodes, node_of, edges: BTreeMap::new() };
-        for side in (0..bezier.patches.len()).flat_map(Side::of) {
-            let (key, _) = mesh.key(side);
-            mesh.edges.entry(key).or_default().push(side);
-        }
-        mesh
+        Self { nodes, node_of, edges: OnceCell::new() }
+    }
+
+    fn edges(&self) -> &BTreeMap<EdgeKey, Vec<Side>> {
+        self.edges.get_or_init(|| {
+            let mut edges: BTreeMap<EdgeKey, Vec<Side>> = BTreeMap::new();
+            for side in (0..self.node_of.len() / 16).flat_map(Side::of) {
+                edges.entry(self.key(side).0).or_default().push(side);
+            }
+            edges
+        })
     }
 
     /// The control points of each node.
@@ -77,19 +84,19 @@ impl Connectivity {
     /// pole do not continue each other there.
     pub(super) fn along(&self, side: Side) -> Vec<Side> {
         let (key, _) = self.key(side);
-        if is_point(key) { vec![side] } else { self.edges.get(&key).cloned().unwrap_or_default() }
+        if is_point(key) { vec![side] } else { self.edges().get(&key).cloned().unwrap_or_default() }
     }
 
     /// The edges with one side: the border of the surface.
     pub(super) fn borders(&self) -> impl Iterator<Item = Side> + '_ {
-        let alone = self.edges.iter().filter(|(key, sides)| sides.len() == 1 && !is_point(**key));
+        let alone = self.edges().iter().filter(|(key, sides)| sides.len() == 1 && !is_point(**key));
         alone.map(|(_, sides)| sides[0])
     }
 
     /// The edges where two sides meet, with the control points of both sides: for each of the four nodes of the edge, the edge's
     /// node and its neighbours on both sides.
     pub(super) fn crossings(&self) -> impl Iterator<Item = [[usize; 3]; 4]> + '_ {
-        let seams = self.edges.iter().filter(|(key, sides)| sides.len() == 2 && !is_point(**key));
+        let seams = self.edges().iter().filter(|(key, sides)| sides.len() == 2 && !is_point(**key));
         seams.map(|(_, sides)| {
             let (a, b) = (sides[0], sides[1]);
             let opposite = self.key(a).1 != self.key(b).1;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::app::document::{Item, PointIndex, Welds, handles};
+use crate::app::document::{Item, PointIndex, Welds};
 use crate::math::Rgb;
 use crate::scene::{Emitter, Shape};
 

@@ -18,8 +18,10 @@
 //! | `preferences` | remembered looks and folders, recent files |
 //! | `outside` | files that other programs change |
 //! | `surface` | splitting and fairing of patches; control points that move together |
+//! | `analysis` | isolines, curvature and reflection lines |
 //! | `fields` | typed numbers and names |
 
+mod analysis;
 mod canvas;
 mod drops;
 mod exports;

@@ -1,0 +1,43 @@
+use super::*;
+
+fn wait_for_image(ui: &mut Ui) {
+    wait_until(ui, "the analysis", |ui| ui.state().canvas.analysis.is_shown());
+}
+
+#[test]
+fn analyses_are_toggled_by_keys_and_restart_no_rendering() {
+    let mut ui = open("report");
+    sent_scenes(&mut ui);
+    let before = Arc::clone(ui.state().document.file());
+    ui.key_press(Key::K);
+    ui.run_steps(2);
+    wait_for_image(&mut ui);
+    ui.run_steps(2);
+    assert!(ui.query_by_label("Mean curvature, per unit").is_some(), "the legend");
+    ui.key_press_modifiers(Modifiers::SHIFT, Key::K);
+    ui.run_steps(2);
+    wait_for_image(&mut ui);
+    ui.run_steps(2);
+    assert!(ui.query_by_label("Gaussian curvature, per unit²").is_some(), "one shading at a time");
+    press(&mut ui, Key::K);
+    ui.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::K);
+    ui.run_steps(2);
+    wait_for_image(&mut ui);
+    ui.run_steps(2);
+    assert!(ui.query_by_label_contains("curvature, per unit").is_none(), "stripes have no numbers");
+    assert!(sent_scenes(&mut ui).is_empty(), "the rendering goes on");
+    assert!(Arc::ptr_eq(ui.state().document.file(), &before), "the document stays");
+}
+
+#[test]
+fn an_analysis_follows_edits_and_the_selection() {
+    let mut ui = open("report");
+    press(&mut ui, Key::K);
+    wait_for_image(&mut ui);
+    type_number(&mut ui, "Translate x", "+0.1");
+    assert!(!ui.state().canvas.analysis.is_shown() || ui.state().document.is_dirty());
+    wait_for_image(&mut ui);
+    let ball = first_object(&ui, |shape| matches!(shape, Shape::Sphere { .. }));
+    select(&mut ui, Item::Object(ball));
+    assert!(!ui.state().canvas.analysis.is_shown(), "a ball has no patches");
+}
