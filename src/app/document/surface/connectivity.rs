@@ -107,6 +107,12 @@ impl Connectivity {
         })
     }
 
+    /// The sides that are collapsed to a point: its node, and the four nodes beside it inside the patch.
+    pub(super) fn poles(&self) -> impl Iterator<Item = (usize, [usize; 4])> + '_ {
+        let sides = self.edges().iter().filter(|(key, _)| is_point(**key)).flat_map(|(_, sides)| sides);
+        sides.map(|side| (self.node(side.point(0, 0)), [0, 1, 2, 3].map(|k| self.node(side.point(k, 1)))))
+    }
+
     /// The nodes next to each node along rows and columns.
     pub(super) fn neighbours(&self) -> Vec<BTreeSet<usize>> {
         let mut neighbours = vec![BTreeSet::new(); self.nodes.len()];
@@ -196,5 +202,8 @@ pub(super) mod tests {
         let mesh = Connectivity::of(&bezier);
         assert_eq!(mesh.along(Side { patch: 0, side: 2 }).len(), 1);
         assert_eq!(mesh.crossings().count(), 1, "the edge between the patches");
+        let pole = mesh.node(PointIndex { patch: 0, i: 2, j: 0 });
+        let beside: Vec<_> = mesh.poles().collect();
+        assert!(beside.len() == 2 && beside.iter().all(|(node, _)| *node == pole), "{beside:?}");
     }
 }

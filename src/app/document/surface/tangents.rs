@@ -3,11 +3,12 @@
 //! Across a seam with control points E_k, the neighbours A_k and B_k of a smooth surface lie on lines through E_k, with one ratio
 //! r of the lengths `|B_k - E_k|` and `|A_k - E_k|` along the whole seam \[Farin02\]. A move of A by a and of E by e therefore moves B
 //! by `(1 + r) e - r a`, which keeps both the line and the ratio; a move of E alone moves A and B by e, and a move of A and B alone
-//! moves E by `(r a + b) / (1 + r)`.
+//! moves E by `(r a + b) / (1 + r)`. The neighbours of a smooth pole lie in its tangent plane, and move with the pole.
 
 use super::connectivity::Connectivity;
+use super::plane_fit::nearest_plane;
 use glam::DVec3;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Least cosine of the angle between the legs of a smooth seam, 14 degrees: the renderer smooths over seams up to this angle.
 const SMOOTH: f64 = 0.97;
@@ -35,6 +36,21 @@ impl Crossing {
     }
 }
 
+/// The neighbours of each pole where they lie in one plane with it.
+fn smooth_poles(mesh: &Connectivity, positions: &[DVec3]) -> BTreeMap<usize, BTreeSet<usize>> {
+    let mut poles: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    for (pole, neighbours) in mesh.poles() {
+        poles.entry(pole).or_default().extend(neighbours);
+    }
+    poles.retain(|pole, neighbours| {
+        let legs = neighbours.iter().filter_map(|node| (positions[*node] - positions[*pole]).try_normalize());
+        let legs: Vec<DVec3> = legs.chain([DVec3::ZERO]).collect();
+        let sine = (1.0 - SMOOTH * SMOOTH).sqrt();
+        nearest_plane(&legs).is_some_and(|(_, normal)| legs.iter().all(|leg| leg.dot(normal).abs() <= sine))
+    });
+    poles
+}
+
 /// The move of a node; zero without a target.
 fn shift(node: usize, positions: &[DVec3], targets: &[Option<DVec3>]) -> DVec3 {
     targets[node].map_or(DVec3::ZERO, |to| to - positions[node])
@@ -52,34 +68,59 @@ fn follow_both_sides(crossings: &[Crossing], positions: &[DVec3], targets: &mut 
     }
 }
 
-/// Gives a target to each node that must move to keep the tangent planes at smooth seams. Nodes that have a target keep it.
+/// The smooth seams and poles around each node.
+struct Smooth {
+    of_edge: Vec<Vec<Crossing>>,
+    of_side: Vec<Vec<Crossing>>,
+    poles: BTreeMap<usize, BTreeSet<usize>>,
+}
+
+impl Smooth {
+    fn new(mesh: &Connectivity, positions: &[DVec3], crossings: &[Crossing]) -> Self {
+        let mut of_edge = vec![Vec::new(); positions.len()];
+        let mut of_side = of_edge.clone();
+        for crossing in crossings {
+            of_edge[crossing.edge].push(*crossing);
+            crossing.sides.into_iter().for_each(|side| of_side[side].push(*crossing));
+        }
+        Self { of_edge, of_side, poles: smooth_poles(mesh, positions) }
+    }
+
+    /// The nodes that move as `node` does, because it lies on their seam or is their pole.
+    fn carried(&self, node: usize) -> Vec<usize> {
+        let across = self.of_edge[node].iter().flat_map(|crossing| crossing.sides);
+        across.chain(self.poles.get(&node).into_iter().flatten().copied()).collect()
+    }
+
+    /// The nodes opposite `node` across seams, with the moves that keep the tangents.
+    fn turned(&self, node: usize, shift: impl Fn(usize) -> DVec3) -> Vec<(usize, DVec3)> {
+        let turn = |crossing: &Crossing| {
+            let (opposite, ratio) = crossing.opposite(node);
+            (opposite, (1.0 + ratio) * shift(crossing.edge) - ratio * shift(node))
+        };
+        self.of_side[node].iter().map(turn).collect()
+    }
+}
+
+/// Gives a target to each node that must move to keep the tangent planes at smooth seams and poles. Nodes that have a target keep
+/// it.
 pub(super) fn follow(mesh: &Connectivity, positions: &[DVec3], targets: &mut [Option<DVec3>]) {
     let crossings: Vec<Crossing> =
         mesh.crossings().flatten().filter_map(|nodes| Crossing::new(nodes, positions)).collect();
-    let mut of_edge: Vec<Vec<&Crossing>> = vec![Vec::new(); positions.len()];
-    let mut of_side = of_edge.clone();
-    for crossing in &crossings {
-        of_edge[crossing.edge].push(crossing);
-        crossing.sides.into_iter().for_each(|side| of_side[side].push(crossing));
-    }
     follow_both_sides(&crossings, positions, targets);
-    // Nodes whose neighbours across the seam have not followed yet, then nodes whose opposite has not: an opposite depends on
-    // the move of its seam.
+    let smooth = Smooth::new(mesh, positions, &crossings);
     let mut carrying: VecDeque<usize> = (0..positions.len()).filter(|node| targets[*node].is_some()).collect();
     let mut turning = VecDeque::new();
-    while let Some((node, carries)) =
-        carrying.pop_front().map(|node| (node, true)).or_else(|| turning.pop_front().map(|node| (node, false)))
-    {
-        let by = shift(node, positions, targets);
-        let followers: Vec<(usize, DVec3)> = if carries {
+    loop {
+        // An opposite depends on the move of its seam, so it waits until no seam moves any more.
+        let followers: Vec<(usize, DVec3)> = if let Some(node) = carrying.pop_front() {
             turning.push_back(node);
-            of_edge[node].iter().flat_map(|crossing| crossing.sides.map(|side| (side, by))).collect()
+            let by = shift(node, positions, targets);
+            smooth.carried(node).into_iter().map(|follower| (follower, by)).collect()
+        } else if let Some(node) = turning.pop_front() {
+            smooth.turned(node, |node| shift(node, positions, targets))
         } else {
-            let turn = |crossing: &&Crossing| {
-                let (opposite, ratio) = crossing.opposite(node);
-                (opposite, (1.0 + ratio) * shift(crossing.edge, positions, targets) - ratio * by)
-            };
-            of_side[node].iter().map(turn).collect()
+            return;
         };
         for (follower, by) in followers {
             if targets[follower].is_none() {
@@ -163,6 +204,26 @@ mod tests {
             before.iter().zip(&after).map(|(a, b)| *b - *a).filter(|by| *by != DVec3::ZERO).collect();
         assert_eq!(moved.len(), 2, "{moved:?}");
         assert!(moved.iter().any(|by| by.distance(-2.0 * DVec3::Y) < TOLERANCE), "{moved:?}");
+    }
+
+    #[test]
+    fn the_neighbours_of_a_smooth_pole_move_with_it() {
+        for (slope, followers) in [(0.0, 1 + 7), (1.0, 1)] {
+            // Two sectors around the origin, flat or a cone.
+            let mut bezier = sheet(2, 1, |_, _| 0.0);
+            for net in Arc::make_mut(&mut bezier.patches) {
+                *net = net.map(|p| {
+                    let (sin, cos) = (0.4 * p.x).sin_cos();
+                    DVec3::new(p.z * cos, slope * p.z, p.z * sin)
+                });
+            }
+            let mesh = Connectivity::of(&bezier);
+            let positions = mesh.positions(&bezier);
+            let mut targets = vec![None; positions.len()];
+            targets[mesh.node(PointIndex::default())] = Some(DVec3::Y);
+            follow(&mesh, &positions, &mut targets);
+            assert_eq!(targets.iter().flatten().count(), followers, "at slope {slope}");
+        }
     }
 
     #[test]

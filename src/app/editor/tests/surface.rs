@@ -1,6 +1,7 @@
 use super::*;
 use crate::app::document::PointIndex;
 use crate::scene::Bezier;
+use crate::world::{Surface, prepare};
 use glam::DVec3;
 
 fn object(ui: &Ui) -> usize {
@@ -83,6 +84,29 @@ fn keys_split_the_strips_of_the_shown_patch_with_a_message() {
         ui.run_steps(3);
         assert_eq!(bezier(&ui).patches.len(), patches, "U splits the strip of the shown patch");
     }
+}
+
+#[test]
+fn a_split_surface_stays_one_sheet_for_the_renderer() {
+    let mut ui = open("report");
+    press(&mut ui, Key::U);
+    ui.key_press(Key::U);
+    ui.run_steps(3);
+    let file = Arc::clone(ui.state().document.file());
+    let world = prepare(&file.scene, &file.location, None).unwrap();
+    let index = object(&ui) as u32;
+    let mut sides = Vec::new();
+    let mut shared_edges = 0;
+    for surface in &world.surfaces {
+        if let Surface::Object { object, front_side, shared, .. } = surface
+            && *object == index
+        {
+            sides.push(*front_side);
+            shared_edges += shared.u.iter().chain(&shared.v).filter(|is_shared| **is_shared).count();
+        }
+    }
+    assert_eq!(sides, vec![sides[0]; 6], "one smooth sheet, seen from one side");
+    assert_eq!(shared_edges, 2 * 7, "3 x 2 patches have seven seams");
 }
 
 #[test]
