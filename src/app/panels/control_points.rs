@@ -62,7 +62,7 @@ fn net_ui(ui: &mut Ui, document: &Document, net: &ControlNet, commands: &mut Vec
 fn point_ui(ui: &mut Ui, document: &Document, point: PointIndex, at: DVec3, commands: &mut Vec<AppCommand>) {
     let name = point_name(point);
     let selected = document.selection.points.contains(&point);
-    let button = Button::selectable(selected, RichText::new(&name).monospace().small()).frame_when_inactive(true);
+    let button = Button::selectable(selected, RichText::new(&name).monospace()).frame_when_inactive(true);
     let response = ui.add(button.min_size(vec2(76.0, 20.0)));
     let DVec3 { x, y, z } = at;
     let place = format!("{name} at {x:.4}, {y:.4}, {z:.4}\nClick to select, with Shift or Ctrl to add or remove");

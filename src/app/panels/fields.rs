@@ -1,5 +1,6 @@
 //! Fields for names, numbers, vectors and colours. Assistive technology and tests find each field by its name.
 
+use super::glossary::{caption, explained, tip};
 use super::typing::{self, Typing};
 use crate::app::theme;
 use crate::math::Rgb;
@@ -64,6 +65,11 @@ impl Number {
     pub(super) fn tip(self, tip: &'static str) -> Self {
         Self { tip, ..self }
     }
+
+    /// The field's own tooltip, or the explanation of its name.
+    fn tip_of(&self, name: &str) -> &'static str {
+        if self.tip.is_empty() { tip(name) } else { self.tip }
+    }
 }
 
 /// A drag step for lengths, scene units: a thousandth of the distance from the camera to its target.
@@ -97,7 +103,8 @@ pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
             .custom_parser(|text| typing.read(text))
             .update_while_editing(false);
         let response = ui.add(field.clip_text(true)).accessible_name(name);
-        response.on_hover_text(format!("{}\n{}", spec.tip, typing::HELP).trim_start());
+        let tip = spec.tip_of(name);
+        response.on_hover_text(format!("{tip}\n{}", typing::HELP).trim_start());
         typing.end(ui.ctx(), name);
     });
     unit_ui(ui, spec.unit);
@@ -137,14 +144,14 @@ fn short(value: f64, decimals: usize) -> String {
 
 /// A row with a number.
 pub(super) fn number_row(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
-    ui.label(name);
+    caption(ui, name);
     ui.horizontal(|ui| number(ui, name, value, spec));
     ui.end_row();
 }
 
 /// A row with a vector.
 pub(super) fn vector_row(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Number) {
-    ui.label(name);
+    caption(ui, name);
     ui.horizontal(|ui| vector(ui, name, value, spec));
     ui.end_row();
 }
@@ -153,16 +160,17 @@ pub(super) fn vector_row(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Numb
 pub(super) fn vector(ui: &mut Ui, name: &str, value: &mut DVec3, spec: &Number) {
     let axes = theme::palette(ui.visuals().dark_mode).axes;
     ui.spacing_mut().item_spacing.x = 3.0;
+    let tip = spec.tip_of(name);
     for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
         ui.label(RichText::new(axis).color(axes[k]));
-        number(ui, &format!("{name} {axis}"), &mut value[k], &Number { unit: "", ..spec.clone() });
+        number(ui, &format!("{name} {axis}"), &mut value[k], &Number { unit: "", tip, ..spec.clone() });
     }
     unit_ui(ui, spec.unit);
 }
 
 /// A row with a reflectance: a colour with channels from 0 to 1.
 pub(super) fn color_row(ui: &mut Ui, name: &str, value: &mut Rgb) {
-    ui.label(name);
+    caption(ui, name);
     ui.horizontal(|ui| color(ui, name, value, &Number::any(0.005).within(0.0..=1.0)));
     ui.end_row();
 }
@@ -195,7 +203,7 @@ fn decimal(value: f32) -> f64 {
 /// The window remembers the colour of a light of strength 0.
 pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'static str, owner: &str) {
     let peak = value.max_element();
-    ui.label(name);
+    caption(ui, name);
     let mut factor = decimal(peak);
     let speed = (0.01 * factor).max(0.001);
     let spec = Number::strength(speed).unit(unit).tip("The largest of the red, green and blue values");
@@ -216,10 +224,11 @@ pub(super) fn strength_row(ui: &mut Ui, name: &str, value: &mut Rgb, unit: &'sta
 
 /// A row with a text field. The text takes effect on Enter or when the field loses focus, so no half-typed name is used.
 pub(super) fn text_row(ui: &mut Ui, name: &str, value: &mut String, owner: impl std::fmt::Debug) {
-    ui.label(name);
+    caption(ui, name);
     let id = ui.make_persistent_id(format!("{name} {owner:?}"));
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| value.clone());
     let response = ui.add(TextEdit::singleline(&mut text).id(id).desired_width(f32::INFINITY)).accessible_name(name);
+    let response = explained(response, name);
     if response.has_focus() {
         ui.data_mut(|data| data.insert_temp(id, text));
     } else {
@@ -233,7 +242,7 @@ pub(super) fn text_row(ui: &mut Ui, name: &str, value: &mut String, owner: impl 
 
 /// A row with a choice among names.
 pub(super) fn choice_row<'a>(ui: &mut Ui, name: &str, value: &mut String, choices: impl Iterator<Item = &'a str>) {
-    ui.label(name);
+    caption(ui, name);
     choice(ui, name, value, choices);
     ui.end_row();
 }
@@ -246,12 +255,12 @@ pub(super) fn choice<'a>(ui: &mut Ui, name: &str, value: &mut String, choices: i
             ui.selectable_value(value, choice.to_owned(), choice);
         }
     });
-    response.response.accessible_name(name);
+    explained(response.response.accessible_name(name), name);
 }
 
 /// A row with a choice among kinds; `Some` when the user chose another kind.
 pub(super) fn kind_row<T: Copy>(ui: &mut Ui, name: &str, current: &str, kinds: &[(&'static str, T)]) -> Option<T> {
-    ui.label(name);
+    caption(ui, name);
     let mut chosen = None;
     let combo = ComboBox::from_id_salt(name).selected_text(current).width(150.0);
     let response = combo.show_ui(ui, |ui| {
@@ -261,7 +270,7 @@ pub(super) fn kind_row<T: Copy>(ui: &mut Ui, name: &str, current: &str, kinds: &
             }
         }
     });
-    response.response.accessible_name(name);
+    explained(response.response.accessible_name(name), name);
     ui.end_row();
     chosen
 }

@@ -1,6 +1,7 @@
 //! The properties of a material.
 
 use super::fields::{Number, choice_row, color, color_row, kind_row, number, number_row, rows, text_row};
+use super::glossary::caption;
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, kinds};
 use crate::math::Rgb;
@@ -65,7 +66,7 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
                 Number::positive(0.002).within(1.0..=4.0).tip("Index of refraction: 1.33 for water, 1.5 for glass");
             number_row(ui, "Index of refraction", ior, &spec);
             surface_color_ui(ui, "Tint", tint, scene);
-            ui.label("Absorption").on_hover_text("Absorption coefficient, per scene unit inside the glass");
+            caption(ui, "Absorption");
             ui.horizontal(|ui| color(ui, "Absorption", absorption, &Number::strength(0.01)));
             ui.end_row();
             priority_ui(ui, priority);

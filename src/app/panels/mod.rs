@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `numbers` | numbers as text: short, grouped, as a duration, in percent |
 //! | `expression` | arithmetic in number fields |
+//! | `glossary` | the explanations of names, for tooltips |
 //! | `icons` | icons of the kinds of items |
 //! | `typing` | typed numbers: relative numbers, and messages on texts that are no numbers |
 //! | `fields` | fields for names, numbers, vectors and colours |
@@ -25,6 +26,7 @@ mod coupling;
 mod error_plot;
 mod expression;
 mod fields;
+mod glossary;
 mod icons;
 mod lights;
 mod materials;

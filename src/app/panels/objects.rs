@@ -3,6 +3,7 @@
 use super::control_points::control_points_ui;
 use super::coupling::coupling_ui;
 use super::fields::{Number, choice_row, length_speed, number_row, rows, text_row, vector_row};
+use super::glossary::caption;
 use super::materials::{Naming, material_ui};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, kinds};
@@ -81,7 +82,7 @@ fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {
 }
 
 fn u_axis_ui(ui: &mut Ui, u_axis: &mut Option<DVec3>) {
-    ui.label("Texture");
+    caption(ui, "Texture");
     let mut custom = u_axis.is_some();
     if ui
         .checkbox(&mut custom, "custom u axis")

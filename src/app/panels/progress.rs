@@ -2,6 +2,7 @@
 
 use super::error_plot::error_plot_ui;
 use super::fields::rows;
+use super::glossary::{caption, explained};
 use super::numbers::{duration, grouped, percent, short, target_text};
 use super::plan::{plan_ui, warnings_ui};
 use super::settings::display_rows;
@@ -13,7 +14,7 @@ use crate::engine::{PassSeconds, Stats};
 use egui::{CollapsingHeader, DragValue, Grid, Ui};
 
 /// Width of the exposure slider beside its label and number, screen points.
-const SLIDER_WIDTH: f32 = 76.0;
+const SLIDER_WIDTH: f32 = 60.0;
 
 /// Display settings, counts, the target error, the error over time, the time of each pass, the plan.
 pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Rendering, commands: &mut Vec<AppCommand>) {
@@ -56,12 +57,11 @@ fn display_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) 
 
 /// The estimated error, and what it may lack.
 fn error_rows(ui: &mut Ui, stats: &Stats) {
-    ui.label("Error");
-    ui.label(stats.error_estimate.map_or("unknown yet".to_owned(), percent))
-        .on_hover_text("Estimated root mean square error of the pixels, over the mean of the picture");
+    caption(ui, "Error");
+    explained(ui.label(stats.error_estimate.map_or("unknown yet".to_owned(), percent)), "Error");
     ui.end_row();
     if let Some(missing) = stats.missing_light {
-        ui.label("Missing light");
+        caption(ui, "Missing light");
         ui.label(missing.to_string());
         ui.end_row();
     }

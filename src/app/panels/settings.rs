@@ -1,6 +1,7 @@
 //! The camera, the picture and the limits of light transport.
 
 use super::fields::{Number, color, count, length_speed, number, number_row, rows, text_row, vector_row};
+use super::glossary::{caption, explained};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit};
 use crate::scene::{Film, Render, ToneCurve};
@@ -48,16 +49,16 @@ pub(super) fn settings_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<A
 
 /// The exposure and the tone curve, as two rows.
 pub(super) fn display_rows(ui: &mut Ui, film: &mut Film) {
-    ui.label("Exposure");
+    caption(ui, "Exposure");
     exposure_ui(ui, film);
     ui.end_row();
-    ui.label("Tone curve");
+    caption(ui, "Tone curve");
     tone_curve_ui(ui, film);
     ui.end_row();
 }
 
 fn size_ui(ui: &mut Ui, film: &mut Film) {
-    ui.label("Size");
+    caption(ui, "Size");
     ui.horizontal(|ui| {
         count(ui, "Width", &mut film.width, 1..=16384, 1.0);
         ui.label("×");
@@ -90,15 +91,15 @@ fn tone_curve_ui(ui: &mut Ui, film: &mut Film) {
                 ui.selectable_value(&mut film.tone_curve, curve, label(curve));
             }
         });
-    response.response.accessible_name("Tone curve");
+    explained(response.response.accessible_name("Tone curve"), "Tone curve");
 }
 
 fn render_ui(ui: &mut Ui, render: &mut Render) {
-    ui.label("Bounces");
+    caption(ui, "Bounces");
     let field = count(ui, "Bounces", &mut render.max_bounces, 1..=1024, 0.1);
     field.on_hover_text("Maximum scattering events on a path; 1 renders direct light only");
     ui.end_row();
-    ui.label("Background");
+    caption(ui, "Background");
     ui.horizontal(|ui| color(ui, "Background", &mut render.background, &Number::strength(0.005)));
     ui.end_row();
 }

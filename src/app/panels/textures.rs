@@ -1,6 +1,7 @@
 //! The properties of a texture.
 
 use super::fields::{rows, text_row};
+use super::glossary::caption;
 use crate::app::commands::AppCommand;
 use crate::app::document::Edit;
 use crate::scene::{Encoding, Texture};
@@ -13,7 +14,7 @@ pub(super) fn texture_ui(ui: &mut Ui, index: usize, texture: &Texture, commands:
     rows(ui, "texture", |ui| {
         text_row(ui, "Name", &mut edited.name, ("texture", index, &texture.name));
         text_row(ui, "File", &mut edited.file, ("texture file", index, &texture.file));
-        ui.label("Encoding");
+        caption(ui, "Encoding");
         ui.horizontal(|ui| {
             ui.radio_value(&mut edited.encoding, Encoding::Srgb, "sRGB").on_hover_text("The image holds sRGB colours");
             ui.radio_value(&mut edited.encoding, Encoding::Linear, "linear")

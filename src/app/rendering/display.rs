@@ -1,4 +1,4 @@
-//! Tone mapping of linear images to a texture, off the UI thread. Exposure and tone curve restart no rendering.
+//! Tone mapping of linear images to a texture. Exposure and tone curve restart no rendering.
 
 use super::sampling::Sampling;
 use crate::film::{LinearImage, ToneMap};
@@ -7,9 +7,15 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use egui::{Color32, ColorImage, Context, TextureHandle};
 use std::sync::Arc;
 
+/// The most pixels that the window's thread maps itself, in about a millisecond: the frame that gets them shows them. Other threads map
+/// larger images, for a later frame.
+const AT_ONCE: usize = 512 * 512;
+
 /// A linear image with its display settings.
 #[derive(Clone, Debug)]
 struct Job {
+    /// Numbers jobs in their order.
+    number: u64,
     image: Arc<LinearImage>,
     exposure: f64,
     tone_curve: ToneCurve,
@@ -17,8 +23,15 @@ struct Job {
     full_size: bool,
 }
 
-/// A tone-mapped image, and whether it has the film's resolution.
-type Pixels = (Arc<ColorImage>, bool);
+/// A tone-mapped image.
+#[derive(Clone, Debug)]
+struct Pixels {
+    image: Arc<ColorImage>,
+    /// The number of the job.
+    number: u64,
+    /// Whether the image has the film's resolution.
+    full_size: bool,
+}
 
 /// The texture of the newest picture.
 pub(crate) struct Display {
@@ -52,14 +65,15 @@ impl Job {
         Arc::ptr_eq(&self.image, &other.image) && self.exposure == other.exposure && self.tone_curve == other.tone_curve
     }
 
-    fn run(&self) -> Arc<ColorImage> {
+    fn run(&self) -> Pixels {
         let size = [self.image.width as usize, self.image.height as usize];
         let tone = ToneMap::new(self.exposure, self.tone_curve);
         let pixels = self.image.pixels.iter().map(|radiance| {
             let [red, green, blue] = tone.map(*radiance);
             Color32::from_rgb(red, green, blue)
         });
-        Arc::new(ColorImage::new(size, pixels.collect()))
+        let image = Arc::new(ColorImage::new(size, pixels.collect()));
+        Pixels { image, number: self.number, full_size: self.full_size }
     }
 }
 
@@ -71,27 +85,42 @@ impl Display {
 
     /// Whether the texture shows the newest requested image.
     pub(crate) fn is_up_to_date(&self) -> bool {
-        !self.busy && self.waiting.is_none()
+        self.requested.as_ref().map(|job| job.number) == self.shown.as_ref().map(|shown| shown.number)
     }
 
-    /// Requests a texture of this image. While a job is busy, a newer request replaces a waiting one.
+    /// Shows an image of few pixels at once, and requests a texture of a larger one. While a job is busy, a newer request replaces a waiting
+    /// one.
     pub(crate) fn show(&mut self, ctx: &Context, image: &Arc<LinearImage>, film: &crate::scene::Film) {
         let full_size = (image.width, image.height) == (film.width, film.height);
-        let job = Job { image: Arc::clone(image), exposure: film.exposure, tone_curve: film.tone_curve, full_size };
+        let number = self.requested.as_ref().map_or(1, |requested| requested.number + 1);
+        let (image, exposure, tone_curve) = (Arc::clone(image), film.exposure, film.tone_curve);
+        let job = Job { number, image, exposure, tone_curve, full_size };
         if self.requested.as_ref().is_some_and(|requested| requested.same_result(&job)) {
             return;
         }
         self.requested = Some(job.clone());
-        self.waiting = Some(job);
-        self.start(ctx);
+        if job.image.pixels.len() <= AT_ONCE {
+            self.waiting = None;
+            self.take(ctx, job.run());
+        } else {
+            self.waiting = Some(job);
+            self.start(ctx);
+        }
+    }
+
+    /// Shows these pixels, unless newer ones are shown.
+    fn take(&mut self, ctx: &Context, pixels: Pixels) {
+        if self.shown.as_ref().is_none_or(|shown| shown.number < pixels.number) {
+            self.shown = Some(pixels);
+            self.upload(ctx);
+        }
     }
 
     /// Uploads a finished image and starts the waiting job. Call it once per frame.
     pub(crate) fn poll(&mut self, ctx: &Context) {
         if let Ok(pixels) = self.done.1.try_recv() {
             self.busy = false;
-            self.shown = Some(pixels);
-            self.upload(ctx);
+            self.take(ctx, pixels);
         }
         self.start(ctx);
     }
@@ -119,14 +148,14 @@ impl Display {
         let (done, ctx) = (self.done.0.clone(), ctx.clone());
         rayon::spawn(move || {
             // One job runs at a time, so the channel has room; it is closed only after the window.
-            if done.try_send((job.run(), job.full_size)).is_ok() {
+            if done.try_send(job.run()).is_ok() {
                 ctx.request_repaint();
             }
         });
     }
 
     fn upload(&mut self, ctx: &Context) {
-        let Some((image, full_size)) = self.shown.clone() else { return };
+        let Some(Pixels { image, full_size, .. }) = self.shown.clone() else { return };
         let options = self.sampling.options(full_size);
         match &mut self.texture {
             Some(texture) => texture.set(image, options),
