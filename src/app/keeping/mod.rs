@@ -3,13 +3,13 @@
 //! | file | holds |
 //! |---|---|
 //! | `folders` | [`Folders`]: the user's folders for state and settings |
-//! | `background` | [`Background`]: a thread that does jobs in their order |
+//! | `background` | a thread that does jobs in their order |
 //! | `recent` | [`RecentFiles`]: the scene files that the user opened or saved last |
 //! | `preferences` | [`Preferences`]: what the window remembers of its looks |
 //! | `preferences_file` | the file of the preferences |
 //! | `watch` | [`Watch`]: notices files that other programs change |
-//! | `slot` | [`Slot`]: a file for unsaved changes, locked by its window |
-//! | `unsaved_copy` | [`UnsavedCopy`]: unsaved changes as the text of a file |
+//! | `slot` | a file for unsaved changes, locked by its window |
+//! | `unsaved_copy` | unsaved changes as the text of a file |
 //! | `autosave` | [`Autosave`]: writes unsaved changes soon after an edit |
 //! | `left_over` | [`LeftOvers`]: unsaved changes of windows that ended without saving |
 

@@ -2,7 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `connectivity` | [`Connectivity`]: control points at one position, edges, seams |
+//! | `connectivity` | control points at one position, edges, seams |
 //! | `mirror` | [`Mirror`]: the plane of a symmetry, and the partner of each position |
 //! | `tangents` | tangent planes across seams, kept while control points move |
 //! | `coupling` | [`Coupling`]: which control points follow the moved ones |

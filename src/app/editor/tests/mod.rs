@@ -14,6 +14,7 @@
 //! | `history` | the list of undo steps |
 //! | `keys` | shortcuts, the help |
 //! | `panels` | the outline, adding and deleting, notices |
+//! | `random_input` | random pointer, keys and text |
 //! | `recovery` | unsaved changes of windows that ended |
 //! | `preferences` | remembered looks and folders, recent files |
 //! | `outside` | files that other programs change |
@@ -35,6 +36,7 @@ mod navigation;
 mod outside;
 mod panels;
 mod preferences;
+mod random_input;
 mod recovery;
 mod selecting;
 mod surface;
