@@ -14,7 +14,25 @@ use std::sync::Arc;
 const RAYS: u64 = 70_000;
 
 pub(crate) fn cases() -> Vec<Case> {
-    [edges(), shapes(), degenerate(), seams(), pictures()].into_iter().flatten().collect()
+    [edges(), shapes(), degenerate(), without_area(), seams(), pictures()].into_iter().flatten().collect()
+}
+
+/// G6: quads without an area are refused, however small or large their edges are.
+fn without_area() -> Vec<Case> {
+    const SCENES: u64 = 200;
+    let accepted = |round| {
+        let scene = |k: &u64| {
+            let size = 10f64.powf(14.0 * unit(round, *k, 0) - 7.0);
+            let edge = direction(round, *k) * size;
+            let other = edge * [0.0, 1.0, -2.0, 1.0 + 1e-17][(k % 4) as usize];
+            let text = camera([0.0, 0.0, 3.0], [0.0; 3], 40.0, 8)
+                + &diffuse("white", 0.8)
+                + &quad("quad", [[0.0; 3], edge.to_array(), other.to_array()], "white");
+            SceneFile::parse(&text, Location::Unsaved).is_ok()
+        };
+        (0..SCENES).filter(scene).count() as u64
+    };
+    vec![Case::faults("accepted quads without an area", "G6", (SCENES, "scenes"), accepted)]
 }
 
 /// A net of these points.

@@ -42,7 +42,7 @@ fn limits() -> Vec<Case> {
     cases
 }
 
-/// C4: both fractions of the light add up to all of it, and total reflection begins at the critical angle.
+/// C4, C5: both fractions of the light add up to all of it, and total reflection begins at the critical angle.
 fn interfaces() -> Vec<Case> {
     const ANGLES: u64 = 100_000;
     let worst_sum = || {
@@ -67,6 +67,18 @@ fn interfaces() -> Vec<Case> {
         Tolerance::Absolute(1e-12),
         Box::new(worst_sum),
     )];
+    // C5: light leaves a ball at the angle at which it came, so no light that comes from outside is reflected totally.
+    let worst_exit = || {
+        let change = |k: u64| {
+            let (cos, index) = ((k as f64 + 0.5) / ANGLES as f64, [1.333, 1.5, 2.42][(k % 3) as usize]);
+            let inside = fresnel(cos, index).cos_transmitted;
+            let exit = fresnel(inside, 1.0 / index);
+            if exit.reflectance < 1.0 { (exit.cos_transmitted - cos).abs() } else { 1.0 }
+        };
+        (0..ANGLES).map(change).fold(0.0, f64::max)
+    };
+    let name = "exit less entry cosine of a ball".into();
+    cases.push(exact(name, 0.0, Tolerance::Absolute(1e-10), Box::new(worst_exit)));
     for (index, degrees) in [(1.5, 41.81), (1.333, 48.61)] {
         let critical = move || {
             let is_total = |degrees: f64| fresnel(degrees.to_radians().cos(), 1.0 / index).reflectance == 1.0;

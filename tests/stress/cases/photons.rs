@@ -1,6 +1,6 @@
 //! Photon maps against sums over all photons, and components without photons: P1 to P5.
 
-use crate::suite::{Case, HEAD, anomalies, glass, point_light, quad, sphere, unit};
+use crate::suite::{Case, HEAD, Tolerance, anomalies, glass, point_light, quad, sphere, unit};
 use glam::Vec3;
 use patchlight::math::Rgb;
 use patchlight::transport::{Photon, PhotonMap, Query};
@@ -31,8 +31,23 @@ pub(crate) fn cases() -> Vec<Case> {
         let wrong = move |round| wrong_sums(count, &distribution, round);
         cases.push(Case::faults(format!("wrong sums over discs: {name}"), "P1, P2, P3, P5", (QUERIES, "discs"), wrong));
     }
+    cases.push(crowd());
     cases.extend(components());
     cases
+}
+
+/// P1: ten million photons of flux 1 in one point, all in one disc around it.
+fn crowd() -> Case {
+    const COUNT: u64 = 10_000_000;
+    let sum = || {
+        let photon = Photon { position: Vec3::splat(0.5), flux: Rgb::ONE, wi: Vec3::Y, cos: 1.0, tag: 0 };
+        let map = PhotonMap::build(&vec![photon; COUNT as usize]);
+        let (position, normal, slope) = (Vec3::splat(0.5), Vec3::Y, Vec3::ZERO);
+        let disc = Query { position, normal, radius: 0.1, slope, tag_start: 0, tag_span: 1 };
+        f64::from(map.sums(&[disc])[0].y)
+    };
+    let name = "flux of ten million photons in one point";
+    Case::exact(name, "P1", COUNT as f64, Tolerance::Relative(1e-3), (COUNT, "photons"), sum)
 }
 
 /// The number of discs whose sum differs from the sum over all photons by more than rounding.
