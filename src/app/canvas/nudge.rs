@@ -46,12 +46,24 @@ pub(crate) fn world_way(stage: &Stage<'_>, at: DVec3, points: DVec3) -> Option<D
     let across = stage.projection.unproject(film + glam::DVec2::new(pixels.x, -pixels.y), depth) - at;
     let away = stage.projection.sight(at).direction;
     let nearer = (points.z / stage.points_per_unit(at) / away.length()).min(1.0 - NEAREST);
-    Some(across - nearer * away)
+    Some(without_rounding(across - nearer * away))
+}
+
+/// The way without components that are only rounding: a coordinate of 0 stays 0.
+fn without_rounding(way: DVec3) -> DVec3 {
+    let least = 1e-9 * way.abs().max_element();
+    DVec3::select(way.abs().cmplt(DVec3::splat(least)), DVec3::ZERO, way)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rounding_is_no_way() {
+        assert_eq!(without_rounding(DVec3::new(6.9e-18, 0.01, -2e-12)), DVec3::new(0.0, 0.01, 0.0));
+        assert_eq!(without_rounding(DVec3::new(1e-18, 0.0, 2e-18)), DVec3::new(1e-18, 0.0, 2e-18));
+    }
 
     #[test]
     fn keys_give_the_way() {

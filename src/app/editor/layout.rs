@@ -113,15 +113,19 @@ impl Editor {
     }
 
     fn scene_ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
-        let outline = self.panel_sizes.outline.min(0.5 * ui.available_height());
+        let (wanted, half) = (self.panel_sizes.outline, 0.5 * ui.available_height());
+        // A window that is too low for the wanted height has a height of its own, and the wanted one stays for a higher window.
+        let (id, outline) = if wanted > half { ("low outline", half) } else { ("outline", wanted) };
         // The properties stay visible in a low window.
         let highest = (0.6 * ui.available_height()).max(80.0);
-        let panel = Panel::top("outline").resizable(true).default_size(outline).size_range(80.0..=highest);
+        let panel = Panel::top(id).resizable(true).default_size(outline).size_range(80.0..=highest);
         let panel = panel.show(ui, |ui| {
             let seen = &self.viewpoint.seen().scene;
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, seen, commands));
         });
-        self.panel_sizes.outline = panel.response.rect.height();
+        if wanted <= half {
+            self.panel_sizes.outline = panel.response.rect.height();
+        }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(4.0);
             properties_ui(ui, &self.document, commands);

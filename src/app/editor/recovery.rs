@@ -1,7 +1,7 @@
 //! Writes unsaved changes, and recovers those of former windows.
 
 use super::state::Editor;
-use crate::app::document::Document;
+use crate::app::document::{Document, Stamp};
 use crate::app::shell::Dialog;
 use crate::scene::{Location, SceneFile};
 use egui::Context;
@@ -22,6 +22,8 @@ impl Editor {
     pub(crate) fn recover(&mut self, index: usize) {
         let Some((slot, copy)) = self.left_overs.take(index) else { return };
         let base = match &copy.file.location {
+            // A file that has changed since is not the one that the changes are based on: saving asks before it replaces it.
+            Location::Disk(path) if copy.stamp != Stamp::of(path) => None,
             Location::Disk(path) => SceneFile::open(path).ok(),
             Location::BuiltIn(name) => SceneFile::built_in(name).ok(),
             Location::Unsaved => None,

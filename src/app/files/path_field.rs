@@ -6,7 +6,7 @@ use crate::app::commands::{AppCommand, Purpose};
 use crate::app::theme;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
-use egui::{Button, Id, Key, Response, TextEdit, Ui};
+use egui::{Button, Id, Key, Response, RichText, TextEdit, Ui};
 use std::path::{Path, PathBuf};
 
 /// A path that the user types, for one purpose.
@@ -104,7 +104,9 @@ impl PathField {
             Purpose::OpenScene | Purpose::AddSurface | Purpose::AddTexture => "Open",
         };
         let is_entered = !self.text.trim().is_empty();
-        let button = ui.add_enabled(is_entered, Button::new(verb));
+        let selection = ui.visuals().selection;
+        let primary = Button::new(RichText::new(verb).color(selection.stroke.color)).fill(selection.bg_fill);
+        let button = ui.add_enabled(is_entered, primary);
         if button.clicked() || (confirmed && is_entered && !replaces) {
             commands.push(AppCommand::PathEntered(self.path()));
         } else if confirmed && is_entered {

@@ -14,6 +14,8 @@ use std::ops::RangeInclusive;
 const FIELD_SIZE: Vec2 = vec2(60.0, 20.0);
 /// Least width of the column of labels, screen points: the fields of all sections stand in line.
 const LABEL_WIDTH: f32 = 76.0;
+/// Width of the button with a colour, screen points.
+const SWATCH_WIDTH: f32 = 24.0;
 /// Digits that fit in a number field, before and after the decimal point together.
 const DIGITS: usize = 5;
 
@@ -89,7 +91,7 @@ pub(super) fn rows(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
 pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
     let layout = Layout::centered_and_justified(ui.layout().main_dir());
     ui.allocate_ui_with_layout(FIELD_SIZE, layout, |ui| {
-        let typing = Typing::of_next(ui, *value);
+        let typing = Typing::of_next(ui, *value, spec.range.clone());
         let field = DragValue::new(value)
             .speed(spec.speed)
             .range(spec.range.clone())
@@ -118,7 +120,7 @@ pub(crate) fn count<N: Numeric>(
     range: RangeInclusive<N>,
     speed: f64,
 ) -> Response {
-    let typing = Typing::of_next(ui, value.to_f64());
+    let typing = Typing::of_next(ui, value.to_f64(), range.start().to_f64()..=range.end().to_f64());
     let field = DragValue::new(value).range(range).speed(speed).update_while_editing(false);
     let response = ui.add(field.custom_parser(|text| typing.read(text))).accessible_name(name);
     typing.end(ui.ctx(), name);
@@ -179,6 +181,8 @@ pub(super) fn color_row(ui: &mut Ui, name: &str, value: &mut Rgb) {
 pub(super) fn color(ui: &mut Ui, name: &str, value: &mut Rgb, spec: &Number) {
     ui.spacing_mut().item_spacing.x = 3.0;
     let mut picked = value.to_array();
+    // Beside three fields the button is small, so that the last field is within the panel.
+    ui.spacing_mut().interact_size.x = SWATCH_WIDTH;
     let response = ui.color_edit_button_rgb(&mut picked).accessible_name(format!("{name} colour"));
     if response.on_hover_text("Pick a colour (linear RGB)").changed() {
         *value = Rgb::from_array(picked);

@@ -1,6 +1,7 @@
 //! The explanations of the names in the side panels, for tooltips.
 
 use egui::{Response, Ui};
+use std::borrow::Cow;
 
 /// Each name with its explanation.
 const TIPS: &[(&str, &str)] = &[
@@ -67,7 +68,20 @@ pub(super) fn tip(name: &str) -> &'static str {
 
 /// The label of a row, explained where the pointer rests on it.
 pub(super) fn caption(ui: &mut Ui, name: &str) {
-    explained(ui.label(name), name);
+    explained(ui.label(in_two_lines(name)), name);
+}
+
+/// Longest name on one line: longer ones would narrow the column of the fields.
+const LINE: usize = 14;
+
+/// A long name, broken at the space nearest to its middle.
+fn in_two_lines(name: &str) -> Cow<'_, str> {
+    let middle = name.len() / 2;
+    let spaces = name.match_indices(' ').map(|(at, _)| at);
+    match spaces.min_by_key(|at| at.abs_diff(middle)).filter(|_| name.len() > LINE) {
+        Some(at) => Cow::Owned(format!("{}\n{}", &name[..at], &name[at + 1..])),
+        None => Cow::Borrowed(name),
+    }
 }
 
 /// A widget with the explanation of its name as a tooltip.
@@ -79,6 +93,12 @@ pub(super) fn explained(response: Response, name: &str) -> Response {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_names_break_at_the_middle() {
+        assert_eq!(in_two_lines("Bump or normal map"), "Bump or\nnormal map");
+        assert_eq!(in_two_lines("Albedo"), "Albedo");
+    }
 
     #[test]
     fn each_name_is_explained_once() {

@@ -93,7 +93,7 @@ fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {
 fn target_row(ui: &mut Ui, target: Option<f64>, commands: &mut Vec<AppCommand>) {
     let mut percent = 100.0 * target.unwrap_or(0.0);
     let label = ui.label("Stop at error");
-    let typing = Typing::of_next(ui, percent);
+    let typing = Typing::of_next(ui, percent, 0.0..=100.0);
     let field = DragValue::new(&mut percent)
         .range(0.0..=100.0)
         .speed(0.01)

@@ -6,6 +6,7 @@ use crate::app::document::kinds;
 use crate::app::files::{Chooser, Request};
 use crate::app::rendering::Rendering;
 use crate::app::theme;
+use crate::app::viewpoint::NamedView;
 use crate::engine::Status;
 use crate::math::Rgb;
 use crate::scene::{Problem, Scene};
@@ -14,8 +15,8 @@ use egui::{Color32, Frame, ScrollArea, Ui};
 /// Maximum height of the list of problems, screen points: the picture stays visible.
 const MAX_HEIGHT: f32 = 120.0;
 
-/// Shows a changed file that cannot be opened, a failure of the engine, the problems that keep the scene from being rendered, the lack of light, and a slow file
-/// dialog.
+/// Shows a changed file that cannot be opened, a failure of the engine, the problems that keep the scene from being rendered, the
+/// lack of light, a black picture, and a slow file dialog.
 pub(crate) fn notices_ui(
     ui: &mut Ui,
     scene: &Scene,
@@ -34,6 +35,8 @@ pub(crate) fn notices_ui(
         problems_ui(ui, rendering.problems());
     } else if is_unlit(scene) {
         unlit_ui(ui);
+    } else if is_black(rendering) {
+        black_ui(ui, commands);
     }
     if let Some(request) = chooser.pending().filter(|_| chooser.is_slow(ui.ctx())) {
         slow_dialog_ui(ui, request, commands);
@@ -98,6 +101,33 @@ fn unlit_ui(ui: &mut Ui) {
         ui.label(
             "Add a light or make a light stronger under \"Lights\", or set a background under \"Picture and rendering\".",
         );
+    });
+}
+
+/// Iterations after which a black picture hardly becomes brighter.
+const BLACK_ITERATIONS: u64 = 4;
+
+/// Whether the picture is black, although iterations have ended.
+fn is_black(rendering: &Rendering) -> bool {
+    let frame = rendering.full_frame().filter(|frame| frame.iteration >= BLACK_ITERATIONS);
+    frame.is_some_and(|frame| frame.image.pixels.iter().all(|pixel| *pixel == Rgb::ZERO))
+}
+
+fn black_ui(ui: &mut Ui, commands: &mut Vec<AppCommand>) {
+    let color = theme::palette(ui.visuals().dark_mode).warning;
+    notice_ui(ui, color, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.colored_label(
+                color,
+                "⚠ The picture is black: the camera sees nothing that is lit. It may be behind a wall.",
+            );
+            for (label, view) in [("The scene's own view", NamedView::Own), ("Frame all", NamedView::All)] {
+                let action = Action::View(view);
+                if ui.button(label).clicked() {
+                    commands.push(AppCommand::Do(action));
+                }
+            }
+        });
     });
 }
 

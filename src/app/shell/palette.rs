@@ -3,7 +3,7 @@
 use crate::app::commands::{Action, AppCommand, Next};
 use crate::app::document::{Edit, Item, Selection, new_items};
 use crate::scene::{Scene, built_in_scenes};
-use egui::{Button, Context, Key, Modifiers, ScrollArea, TextEdit, Ui};
+use egui::{Button, Context, Key, Modifiers, ScrollArea, TextEdit, ThemePreference, Ui};
 
 /// The text and the chosen entry of the open palette.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -37,7 +37,7 @@ impl Palette {
         field.request_focus();
         ui.add_space(4.0);
         let mut run = found.get(self.chosen).filter(|_| entered).map(|entry| entry.command.clone());
-        ScrollArea::vertical().max_height(320.0).auto_shrink([false, true]).show(ui, |ui| {
+        ScrollArea::vertical().max_height(320.0).min_scrolled_height(320.0).auto_shrink(false).show(ui, |ui| {
             for (index, entry) in found.iter().enumerate() {
                 let is_chosen = index == self.chosen;
                 let mut button = Button::selectable(is_chosen, &entry.label);
@@ -104,7 +104,11 @@ fn entries(ctx: &Context, scene: &Scene) -> Vec<Entry> {
     let examples = built_in_scenes().iter().map(|example| {
         plain(format!("Open example {}", example.title), AppCommand::Leave(Next::Example(example.name)))
     });
-    actions.chain(items).chain(shapes).chain(lights).chain(examples).collect()
+    let themes = [ThemePreference::Dark, ThemePreference::Light, ThemePreference::System]
+        .into_iter()
+        .zip(["Dark theme", "Light theme", "Theme of the system"])
+        .map(|(theme, label)| plain(label.to_owned(), AppCommand::Theme(theme)));
+    actions.chain(themes).chain(items).chain(shapes).chain(lights).chain(examples).collect()
 }
 
 /// The items of a scene with their names.

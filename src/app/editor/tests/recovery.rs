@@ -84,6 +84,23 @@ fn unsaved_changes_are_recovered_after_the_end_of_a_window() {
 }
 
 #[test]
+fn recovered_changes_do_not_replace_a_file_that_has_changed_since() {
+    let (home, work) = (folder(), folder());
+    let path = scene_in(work.path());
+    let mut ui = open_in(home.path(), &path);
+    brighten(&mut ui, 2.0);
+    kill(ui);
+    SceneFile::built_in("lens").unwrap().save(&path).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    let mut ui = open_in(home.path(), &path);
+    wait_for_question(&mut ui);
+    click(&mut ui, "Recover");
+    assert!(ui.state().document.is_dirty(), "the recovered changes");
+    wait_until(&mut ui, "the question", |ui| matches!(ui.state().dialog, Some(Dialog::Reload(_))));
+    assert_eq!(fs::read_to_string(&path).unwrap(), text, "the file of the other program stays");
+}
+
+#[test]
 fn a_saved_or_discarded_scene_leaves_nothing_behind() {
     let (home, work) = (folder(), folder());
     let path = scene_in(work.path());
