@@ -58,7 +58,6 @@ const TIPS: &[(&str, &str)] = &[
     ("Background", "Radiance where no object is"),
     ("Stop at error", "Rendering stops when the error is hardly above this; 0 never stops"),
     ("Error", "Estimated root mean square error of the pixels, over the mean of the picture"),
-    ("Missing light", "Light that too few photons have found so far"),
 ];
 
 /// The explanation of a name; empty for a name that needs none.

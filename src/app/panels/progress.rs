@@ -29,6 +29,9 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
         error_rows(ui, &frame.stats);
         target_row(ui, rendering.target(), commands);
     });
+    if let Some(missing) = frame.stats.missing_light {
+        ui.weak(missing.to_string());
+    }
     ui.add_space(4.0);
     error_plot_ui(ui, rendering.error_curve(), rendering.target());
     if !frame.plan.warnings.is_empty() {
@@ -55,16 +58,11 @@ fn display_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) 
     }
 }
 
-/// The estimated error, and what it may lack.
+/// The estimated error.
 fn error_rows(ui: &mut Ui, stats: &Stats) {
     caption(ui, "Error");
     explained(ui.label(stats.error_estimate.map_or("unknown yet".to_owned(), percent)), "Error");
     ui.end_row();
-    if let Some(missing) = stats.missing_light {
-        caption(ui, "Missing light");
-        ui.label(missing.to_string());
-        ui.end_row();
-    }
 }
 
 fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {

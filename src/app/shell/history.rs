@@ -2,7 +2,7 @@
 
 use crate::app::commands::{Action, AppCommand};
 use crate::app::document::Document;
-use egui::{Align, Align2, Context, Id, Rect, RichText, ScrollArea, Ui, Window};
+use egui::{Align, Align2, Context, Id, Key, Rect, RichText, ScrollArea, Ui, Window};
 
 /// Size of the list, screen points.
 const WIDTH: f32 = 230.0;
@@ -18,7 +18,9 @@ pub(crate) fn history_ui(ctx: &Context, canvas: Rect, document: &Document, comma
         .default_pos(canvas.right_top() + egui::vec2(-12.0, 12.0))
         .default_size([WIDTH, HEIGHT])
         .show(ctx, |ui| ScrollArea::vertical().auto_shrink(false).show(ui, |ui| steps_ui(ui, document, commands)));
-    if !open {
+    // Escape ends a drag first: egui gives it to the dragged widget.
+    let escaped = !ctx.egui_is_using_pointer() && ctx.memory(|memory| memory.focused().is_none());
+    if !open || (escaped && ctx.input(|input| input.key_pressed(Key::Escape))) {
         commands.push(AppCommand::Do(Action::ToggleHistory));
     }
 }
