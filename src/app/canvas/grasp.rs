@@ -1,10 +1,10 @@
 //! Input on handles and gizmo: hover, click, drag, keys.
 
-use super::drag::Constraint;
 use super::falloff::Falloff;
 use super::movement::Movement;
 use super::scenery::{Scenery, Target};
 use super::stage::Stage;
+use super::steering::{Steering, released_at};
 use super::{handle_widgets, nudge, overlay, readout, rectangle, snap};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Edit, Item, Selection};
@@ -15,6 +15,8 @@ use glam::DVec3;
 #[derive(Debug, Default)]
 pub(crate) struct Grasp {
     held: Option<Held>,
+    /// The keys in the last frame of the drag.
+    steering: Steering,
     /// Whether the next drag selects by a rectangle.
     pub(crate) selects_rectangle: bool,
     /// Soft selection.
@@ -158,11 +160,18 @@ impl Grasp {
                     rectangle::paint(&ui.painter_at(stage.transform.canvas), rect);
                 }
             }
-            Some(Held::Handles(held)) if canvas.dragged_by(PointerButton::Primary) => {
-                let edit = drag(ui, stage, held, pointer, (self.grid, &mut self.falloff));
+            Some(Held::Handles(held)) => {
+                let at = if canvas.dragged_by(PointerButton::Primary) {
+                    self.steering = Steering::of_keys(ui, held.normal);
+                    Some(pointer)
+                } else {
+                    // The pointer may have moved until the button was released, and the keys may have been released since.
+                    released_at(ui).filter(|_| canvas.drag_stopped())
+                };
+                let edit = at.and_then(|at| drag(ui, stage, (held, self.steering), at, (self.grid, &mut self.falloff)));
                 commands.extend(edit.map(AppCommand::Edit));
             }
-            Some(Held::Handles(_)) | None => {}
+            None => {}
         }
     }
 
@@ -206,15 +215,15 @@ impl Grasp {
 fn drag(
     ui: &mut Ui,
     stage: &Stage<'_>,
-    held: &Movement,
+    (held, steering): (&Movement, Steering),
     pointer: Pos2,
     (grid, falloff): (Option<f64>, &mut Falloff),
 ) -> Option<Edit> {
     ui.set_cursor_icon(CursorIcon::Grabbing);
     let at = held.position(stage)?;
-    let constraint = held.constraint(axis_key(ui, held.normal));
-    let (snaps, scroll) = ui.input(|input| (input.modifiers.command, input.smooth_scroll_delta().y));
-    let grid = snaps.then(|| grid.unwrap_or_else(|| snap::automatic_step(&stage.document.scene().camera)));
+    let constraint = held.constraint(steering.axis);
+    let scroll = ui.input(|input| input.smooth_scroll_delta().y);
+    let grid = steering.snaps.then(|| grid.unwrap_or_else(|| snap::automatic_step(&stage.document.scene().camera)));
     let radius = (falloff.on && held.moves_points()).then(|| {
         falloff.radius(held.extent);
         falloff.scroll(scroll);
@@ -227,13 +236,6 @@ fn drag(
     readout::ui(ui, stage, (pointer, at), held.delta(stage), (grid, radius));
     let target = held.target(stage, stage.transform.to_film(pointer), constraint, grid);
     held.edit(stage, target, radius)
-}
-
-/// The constraint of the axis key that is held down: X, Y, Z, or N for the surface normal.
-fn axis_key(ui: &Ui, normal: Option<DVec3>) -> Option<Constraint> {
-    let keys = [(Key::X, Some(DVec3::X)), (Key::Y, Some(DVec3::Y)), (Key::Z, Some(DVec3::Z)), (Key::N, normal)];
-    let held = ui.input(|input| keys.into_iter().find(|(key, _)| input.key_down(*key)));
-    held.and_then(|(_, axis)| axis).map(Constraint::Axis)
 }
 
 /// Whether no widget and no menu takes keys.

@@ -22,6 +22,7 @@
 //! | `overlay` | painting of control nets, handles, gizmo and drag axes |
 //! | `readout` | the way of a drag in numbers |
 //! | `handle_widgets` | tooltips and accessible names of handles and gizmo |
+//! | `steering` | the keys that steer a drag, and where it ends |
 //! | `grasp` | [`Grasp`](grasp::Grasp): pointer and keys on handles and gizmo |
 //! | `analysis/` | isolines, curvature and reflection lines of the selected surface |
 //! | `widget` | [`Canvas`]: pointer and keyboard input on the picture |
@@ -46,6 +47,7 @@ mod scenery;
 mod sight;
 mod snap;
 mod stage;
+mod steering;
 mod view;
 mod visibility;
 mod widget;

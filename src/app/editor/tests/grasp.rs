@@ -221,3 +221,30 @@ fn handles_behind_the_surface_are_shown_with_x_ray_alone() {
     ui.run_steps(2);
     assert_eq!(shown(&ui), before);
 }
+
+#[test]
+fn a_drag_ends_where_and_how_the_button_was_released_within_one_frame() {
+    let (mut ui, handle) = with_point();
+    let start = at(&ui, handle);
+    let from = screen(&ui, "Control point P[1][2]");
+    ui.key_down(Key::X);
+    drag(&mut ui, from, vec2(10.0, 5.0), 2);
+    let tenth = at(&ui, handle) - start;
+    let moved = |way: egui::Vec2| Event::PointerMoved(from + way);
+    let released = Event::PointerButton {
+        pos: from + vec2(40.0, 20.0),
+        button: egui::PointerButton::Primary,
+        pressed: false,
+        modifiers: Modifiers::NONE,
+    };
+    let key_released =
+        Event::Key { key: Key::X, physical_key: None, pressed: false, repeat: false, modifiers: Modifiers::NONE };
+    let events = [moved(vec2(40.0, 20.0)), released, key_released, moved(vec2(90.0, -60.0))];
+    ui.input_mut().events.extend(events);
+    ui.run_steps(2);
+    let whole = at(&ui, handle) - start;
+    // The rounding error of numbers of size 1.
+    assert!(whole.y.abs() + whole.z.abs() < 1e-12, "along x until the end: {whole}");
+    // Perspective bends the way of a point along an axis by a few per cent.
+    assert!((whole.x / tenth.x - 4.0).abs() < 0.4, "{whole} is four times {tenth}");
+}
