@@ -7,6 +7,7 @@
 //! | `pixels` | the grid and the numbers of magnified pixels |
 //! | `drag` | the position of a dragged handle |
 //! | `picking` | the surfaces of the objects, and the nearest along a ray |
+//! | `free_space` | [`free_ball`]: the place of a new item in the picture |
 //! | `visibility` | which handles the camera sees |
 //! | `normal` | the surface normal at the selection |
 //! | `sight` | [`Sight`](sight::Sight): surfaces, welded points and visibility, kept from frame to frame |
@@ -30,6 +31,7 @@
 mod analysis;
 mod drag;
 mod falloff;
+mod free_space;
 mod gizmo;
 mod grasp;
 mod handle_widgets;
@@ -53,6 +55,7 @@ mod visibility;
 mod widget;
 
 pub(crate) use analysis::Analysis;
+pub(crate) use free_space::{Aim, free_ball};
 pub(crate) use projection::Projection;
 pub(crate) use snap::{automatic_step, steps_around};
 #[cfg(test)]

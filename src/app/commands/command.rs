@@ -3,7 +3,7 @@
 use super::action::Action;
 use super::purpose::Purpose;
 use crate::app::document::surface::Coupling;
-use crate::app::document::{Edit, Selection};
+use crate::app::document::{Edit, NewItem, Selection};
 use crate::scene::Camera;
 use egui::ThemePreference;
 use std::num::NonZeroUsize;
@@ -22,6 +22,8 @@ pub(crate) enum AppCommand {
     View(Camera),
     /// Change which control points move together.
     Couple(Coupling),
+    /// Add an object or a light where the camera looks.
+    Add(NewItem),
     /// Ask for a file to add to the scene.
     AddFrom(Purpose),
     /// Use a file that was dropped onto the window.

@@ -89,6 +89,11 @@ pub(crate) fn model_like(model: &MaterialModel, kind: &str) -> MaterialModel {
 /// A light of the kind `kind` at the same position, with the same peak intensity. A sun from there lights the
 /// origin as the other kinds do, and a beam lights its whole way as they do at a distance of 1.
 pub(crate) fn emitter_like(emitter: &Emitter, kind: &str) -> Emitter {
+    emitter_of_size(emitter, kind, 0.1)
+}
+
+/// As [`emitter_like`], where a sphere or a beam gets this radius, scene units, and a quad twice this side.
+pub(super) fn emitter_of_size(emitter: &Emitter, kind: &str, size: f64) -> Emitter {
     const PI: f32 = std::f32::consts::PI;
     // Intensity along the brightest direction, W/sr: a small surface of projected area A and radiance L has A L.
     let (at, intensity) = match *emitter {
@@ -100,16 +105,13 @@ pub(crate) fn emitter_like(emitter: &Emitter, kind: &str) -> Emitter {
         Emitter::Sun { direction, irradiance, .. } => (-direction, irradiance * direction.length_squared() as f32),
         Emitter::Beam { center, radius, power, .. } => (center, power / (PI * (radius * radius) as f32)),
     };
-    const RADIUS: f64 = 0.1;
     match kind {
-        "sphere" => {
-            Emitter::Sphere { center: at, radius: RADIUS, radiance: intensity / (PI * (RADIUS * RADIUS) as f32) }
-        }
+        "sphere" => Emitter::Sphere { center: at, radius: size, radiance: intensity / (PI * (size * size) as f32) },
         "quad" => Emitter::Quad {
-            corner: at - RADIUS * DVec3::new(1.0, 0.0, 1.0),
-            edge_u: 2.0 * RADIUS * DVec3::X,
-            edge_v: 2.0 * RADIUS * DVec3::Z,
-            radiance: intensity / (4.0 * RADIUS * RADIUS) as f32,
+            corner: at - size * DVec3::new(1.0, 0.0, 1.0),
+            edge_u: 2.0 * size * DVec3::X,
+            edge_v: 2.0 * size * DVec3::Z,
+            radiance: intensity / (4.0 * size * size) as f32,
         },
         "sun" => {
             let direction = if at == DVec3::ZERO { DVec3::NEG_Y } else { -at };
@@ -119,8 +121,8 @@ pub(crate) fn emitter_like(emitter: &Emitter, kind: &str) -> Emitter {
         "beam" => Emitter::Beam {
             center: at,
             direction: DVec3::NEG_Y,
-            radius: RADIUS,
-            power: intensity * (PI * (RADIUS * RADIUS) as f32),
+            radius: size,
+            power: intensity * (PI * (size * size) as f32),
         },
         _ => Emitter::Point { position: at, intensity },
     }

@@ -8,7 +8,7 @@
 //! | `welds` | [`Welds`]: the welded control points of an object |
 //! | `growth` | sets of control points to select: all, rows, columns |
 //! | `surface/` | operations on the patches of an object, and which control points move together |
-//! | `placement` | where new items go |
+//! | `placement` | the places and sizes of new items |
 //! | `edit` | [`Edit`]: every change of a scene, as data |
 //! | `edit_name` | the names of edits in menus and in the history |
 //! | `history` | undo and redo of whole states |
@@ -35,6 +35,7 @@ mod welds;
 pub(crate) use edit::{Edit, texture_names, user_of};
 pub(crate) use growth::{Direction, all_points, with_lines};
 pub(crate) use handles::Handle;
+pub(crate) use new_items::NewItem;
 pub(crate) use selection::{Item, PointIndex, Selection};
 pub(crate) use stamp::Stamp;
 pub(crate) use state::Document;

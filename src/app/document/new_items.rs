@@ -2,10 +2,11 @@
 
 use super::edit::Edit;
 use super::handles::{Handle, translate_emitter, translate_shape};
-use super::kinds::{MODEL_KINDS, emitter_like, model_like};
+use super::kinds::{MODEL_KINDS, emitter_of_size, model_like};
 use super::names::free_name;
-use super::placement::{fitted, free_place, size, way_to_copy};
+use super::placement::{fitted, plane_below, way_to_copy};
 use super::selection::Item;
+use crate::geometry::Sphere;
 use crate::geometry::bezier::ControlNet;
 use crate::math::Rgb;
 use crate::scene::{
@@ -19,33 +20,77 @@ use std::sync::Arc;
 
 /// Where a new sun shines from: high, and aside, so that shadows show.
 const NEW_SUN: DVec3 = DVec3::new(0.4, 0.8, 0.3);
+/// Half the side of a new patch or quad, and the radius of a new sphere, over the radius of the ball that holds it: the
+/// corners of a square lie on the ball.
+const HALF_SIDE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// The radius of a new lamp over the radius of the ball that holds it.
+const LAMP: f64 = 0.5;
 
-/// Makes a new shape or light, sized and placed for the scene's camera.
-type Make<T> = fn(&Scene) -> T;
-
-/// The shapes of the menu "Add to Objects", by their labels.
-pub(crate) fn shapes() -> [(&'static str, Make<Shape>); 4] {
-    [
-        ("patch", |scene| Shape::Bezier(sheet(place(scene), size(scene)))),
-        ("sphere", |scene| Shape::Sphere { center: place(scene), radius: 0.5 * size(scene) }),
-        ("quad", |scene| {
-            let size = size(scene);
-            let corner = place(scene) - DVec3::new(size, 0.0, -size);
-            Shape::Quad { corner, edge_u: 2.0 * size * DVec3::X, edge_v: -2.0 * size * DVec3::Z }
-        }),
-        ("plane", |scene| Shape::Plane { point: scene.camera.target, normal: DVec3::Y, u_axis: None }),
-    ]
+/// An object or light of the menus "Add to Objects" and "Add to Lights".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NewItem {
+    Patch,
+    Sphere,
+    Quad,
+    Plane,
+    PointLight,
+    SphereLight,
+    QuadLight,
+    Sun,
+    Beam,
 }
 
-/// The lights of the menu "Add to Lights", by their labels.
-pub(crate) fn emitters() -> [(&'static str, Make<Emitter>); 5] {
-    [
-        ("point light", |scene| emitter(scene, "point")),
-        ("sphere light", |scene| emitter(scene, "sphere")),
-        ("quad light", |scene| emitter(scene, "quad")),
-        ("sun", |scene| emitter(scene, "sun")),
-        ("beam", |scene| emitter(scene, "beam")),
-    ]
+impl NewItem {
+    /// The entries of the menu "Add to Objects".
+    pub(crate) const OBJECTS: [Self; 4] = [Self::Patch, Self::Sphere, Self::Quad, Self::Plane];
+    /// The entries of the menu "Add to Lights".
+    pub(crate) const LIGHTS: [Self; 5] = [Self::PointLight, Self::SphereLight, Self::QuadLight, Self::Sun, Self::Beam];
+
+    /// The name in menus, and of the new item.
+    pub(crate) fn label(self) -> &'static str {
+        match self {
+            Self::Patch => "patch",
+            Self::Sphere => "sphere",
+            Self::Quad => "quad",
+            Self::Plane => "plane",
+            Self::PointLight => "point light",
+            Self::SphereLight => "sphere light",
+            Self::QuadLight => "quad light",
+            Self::Sun => "sun",
+            Self::Beam => "beam",
+        }
+    }
+
+    /// Whether it is a light.
+    pub(crate) fn is_light(self) -> bool {
+        Self::LIGHTS.contains(&self)
+    }
+
+    /// The edit that adds the item inside of `room`, a ball without other items. A plane lies below that ball.
+    pub(crate) fn added(self, scene: &Scene, room: &Sphere) -> Edit {
+        let shape = match self {
+            Self::Patch => Shape::Bezier(sheet(room.center, HALF_SIDE * room.radius)),
+            Self::Sphere => Shape::Sphere { center: room.center, radius: HALF_SIDE * room.radius },
+            Self::Quad => {
+                let half = HALF_SIDE * room.radius;
+                let corner = room.center - half * DVec3::new(1.0, 0.0, -1.0);
+                Shape::Quad { corner, edge_u: 2.0 * half * DVec3::X, edge_v: -2.0 * half * DVec3::Z }
+            }
+            Self::Plane => plane_below(scene, room),
+            Self::PointLight => return self.added_light(scene, room, "point"),
+            Self::SphereLight => return self.added_light(scene, room, "sphere"),
+            Self::QuadLight => return self.added_light(scene, room, "quad"),
+            Self::Sun => return self.added_light(scene, &Sphere { center: NEW_SUN, ..*room }, "sun"),
+            Self::Beam => return self.added_light(scene, room, "beam"),
+        };
+        Edit::AddObject(object(scene, self.label(), shape))
+    }
+
+    fn added_light(self, scene: &Scene, room: &Sphere, kind: &str) -> Edit {
+        let point = Emitter::Point { position: room.center, intensity: Rgb::ONE };
+        let emitter = emitter_of_size(&point, kind, LAMP * room.radius);
+        Edit::AddLight(Light { name: light_name(scene, self.label()), emitter })
+    }
 }
 
 /// The materials of the menu "Add to Materials", by their labels.
@@ -58,11 +103,6 @@ pub(crate) fn models() -> [(&'static str, MaterialModel); 5] {
 pub(crate) fn object(scene: &Scene, name: &str, shape: Shape) -> Object {
     let material = scene.materials.first().map_or(String::new(), |material| material.name.clone());
     Object { name: object_name(scene, name), material, shape, body: None }
-}
-
-/// A new light under a free name made from `kind`.
-pub(crate) fn light(scene: &Scene, kind: &str, emitter: Make<Emitter>) -> Light {
-    Light { name: light_name(scene, kind), emitter: emitter(scene) }
 }
 
 /// A new material under a free name made from `kind`.
@@ -81,15 +121,15 @@ pub(crate) fn texture(scene: &Scene, path: &Path) -> Result<Texture, String> {
     Ok(Texture { name, file, encoding: Encoding::Srgb })
 }
 
-/// A new object of the patches in a `.bpt` file, under a free name made from the file's name. Patches out of sight are
-/// scaled and moved into the picture.
+/// A new object of the patches in a `.bpt` file, under a free name made from the file's name. Its transform
+/// brings the patches into `room`, a ball.
 ///
 /// # Errors
 /// Returns a message when the file cannot be read or parsed.
-pub(crate) fn surface(scene: &Scene, path: &Path) -> Result<Object, String> {
+pub(crate) fn surface(scene: &Scene, path: &Path, room: &Sphere) -> Result<Object, String> {
     let file = absolute(path);
     let patches = Arc::new(Location::Unsaved.read_patches(&file)?);
-    let bezier = Bezier { transform: fitted(scene, &patches), patches, file: Some(file) };
+    let bezier = Bezier { transform: fitted(&patches, room), patches, file: Some(file) };
     Ok(object(scene, &stem(path, "patches"), Shape::Bezier(bezier)))
 }
 
@@ -139,11 +179,6 @@ fn way_to_copy_of(scene: &Scene, original: Handle) -> DVec3 {
     }
 }
 
-/// Where a new object goes: where the camera looks, beside the objects that are there.
-fn place(scene: &Scene) -> DVec3 {
-    free_place(scene, scene.camera.target)
-}
-
 /// The scene of "New scene": a curved patch over a ground plane, lit by a point light.
 pub(crate) fn empty_scene() -> Scene {
     let mut scene = Scene { name: "new scene".to_owned(), ..Scene::default() };
@@ -168,14 +203,6 @@ fn sheet(center: DVec3, half: f64) -> Bezier {
     Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None }
 }
 
-fn emitter(scene: &Scene, kind: &str) -> Emitter {
-    if kind == "sun" {
-        return emitter_like(&Emitter::Point { position: NEW_SUN, intensity: Rgb::ONE }, kind);
-    }
-    let position = free_place(scene, scene.camera.target + size(scene) * DVec3::Y);
-    emitter_like(&Emitter::Point { position, intensity: Rgb::ONE }, kind)
-}
-
 fn object_name(scene: &Scene, wanted: &str) -> String {
     free_name(scene, Item::Object(scene.objects.len()), wanted)
 }
@@ -194,21 +221,34 @@ mod tests {
     use crate::scene::SceneFile;
 
     #[test]
-    fn added_and_copied_items_lie_beside_the_others() {
-        let mut scene = SceneFile::built_in("report").unwrap().scene;
-        let mut places: Vec<DVec3> = Vec::new();
+    fn new_planes_do_not_coincide() {
+        let (mut scene, room) = (empty_scene(), Sphere { center: DVec3::new(0.0, 0.4, 0.0), radius: 1.0 });
         for _ in 0..3 {
-            for (label, shape) in shapes().into_iter().filter(|(label, _)| *label != "plane") {
-                let new = object(&scene, label, shape(&scene));
-                Edit::AddObject(new).apply(&mut scene);
-                let copied = duplicate(&scene, Item::Object(scene.objects.len() - 1));
-                copied.into_iter().for_each(|edit| edit.apply(&mut scene));
-                places.extend([2, 1].map(|k| Handle::Object(scene.objects.len() - k).position(&scene).unwrap()));
-            }
+            NewItem::Plane.added(&scene, &room).apply(&mut scene);
         }
-        let near = |a: &DVec3| places.iter().filter(|b| a.distance(**b) < 0.2 * size(&scene)).count();
-        // Nine places around the target fill up; the first objects have a place of their own.
-        assert!(places[..6].iter().all(|place| near(place) == 1), "{places:?}");
+        let heights: Vec<f64> = scene
+            .objects
+            .iter()
+            .filter_map(|object| match &object.shape {
+                Shape::Plane { point, .. } => Some(point.y),
+                _ => None,
+            })
+            .collect();
+        let near = |a: f64| heights.iter().filter(|b| (a - **b).abs() < 0.1).count();
+        assert!(heights.len() == 4 && heights.iter().all(|&height| near(height) == 1), "{heights:?}");
+    }
+
+    #[test]
+    fn copies_lie_beside_the_others() {
+        let mut scene = SceneFile::built_in("report").unwrap().scene;
+        let mut places = vec![Handle::Object(0).position(&scene).unwrap()];
+        for _ in 0..3 {
+            let copied = duplicate(&scene, Item::Object(0)).unwrap();
+            copied.apply(&mut scene);
+            places.push(Handle::Object(scene.objects.len() - 1).position(&scene).unwrap());
+        }
+        let near = |a: &DVec3| places.iter().filter(|b| a.distance(**b) < 0.01).count();
+        assert!(places.iter().all(|place| near(place) == 1), "{places:?}");
     }
 
     #[test]

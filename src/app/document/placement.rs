@@ -1,58 +1,55 @@
-//! Where new items go: in the picture, and beside the items that are there.
+//! The places and sizes of new items: inside of a free ball, and of copies: beside their originals.
 
 use super::handles::Handle;
+use crate::geometry::Sphere;
 use crate::geometry::bezier::ControlNet;
-use crate::scene::{Scene, Transform};
+use crate::scene::{Scene, Shape, Transform};
 use glam::DVec3;
 
-/// Distance of neighbouring places over the radius of a new item: neighbours do not touch.
-const STEP: f64 = 2.2;
-/// Places around the wanted place, in steps to the right and upwards in the picture.
-const PLACES: [(f64, f64); 9] =
-    [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
-/// Extents of patches in the picture, over the size of a new item: smaller patches are hard to see, larger ones may enclose
-/// the camera.
-const VISIBLE: std::ops::RangeInclusive<f64> = 0.25..=8.0;
+/// Planes nearer than this coincide, over the radius of the ball above them.
+const SAME_PLANE: f64 = 0.25;
 
-/// A length for new items, scene units: a fifth of the picture's height at the camera's target.
-pub(super) fn size(scene: &Scene) -> f64 {
-    let camera = &scene.camera;
-    0.4 * camera.position.distance(camera.target) * (0.5 * camera.fov_y.to_radians()).tan()
+/// The horizontal plane that touches the ball from below; deeper where that plane would coincide with another.
+pub(super) fn plane_below(scene: &Scene, room: &Sphere) -> Shape {
+    let heights = scene.objects.iter().filter_map(|object| match &object.shape {
+        Shape::Plane { point, normal, .. } if normal.with_y(0.0).length() < 1e-3 * normal.y.abs() => Some(point.y),
+        _ => None,
+    });
+    let taken: Vec<f64> = heights.collect();
+    // Each plane takes at most one of these depths.
+    let mut depths = (2..=taken.len() + 2).map(|k| 0.5 * k as f64 * room.radius);
+    let is_free =
+        |depth: &f64| taken.iter().all(|height| (room.center.y - depth - height).abs() >= SAME_PLANE * room.radius);
+    let depth = depths.find(is_free).unwrap_or(room.radius);
+    Shape::Plane { point: room.center - depth * DVec3::Y, normal: DVec3::Y, u_axis: None }
 }
 
-/// The place nearest to `wanted` where no item has its centre within the size of a new item; `wanted` where every place
-/// nearby is taken.
-pub(super) fn free_place(scene: &Scene, wanted: DVec3) -> DVec3 {
-    let (size, taken) = (size(scene), centers(scene));
-    let (right, up) = picture_axes(scene);
-    let mut places = PLACES.into_iter().map(|(x, y)| wanted + STEP * size * (x * right + y * up));
-    let is_free = |place: &DVec3| taken.iter().all(|center| center.distance(*place) >= size);
-    places.find(is_free).unwrap_or(wanted)
-}
-
-/// The way from an item at `from` to its copy: to the right, in steps of half the size of a new item, up to a place without
-/// another item.
+/// The way from an item at `from` to its copy: to the right in the picture, in steps of a tenth of the picture's height at
+/// the camera's target, up to a place without another item.
 pub(super) fn way_to_copy(scene: &Scene, from: DVec3) -> DVec3 {
-    let (right, taken) = (picture_axes(scene).0, centers(scene));
-    let step = 0.5 * size(scene);
+    let (right, taken) = (right_in_picture(scene), centers(scene));
+    let camera = &scene.camera;
+    let step = 0.2 * camera.position.distance(camera.target) * (0.5 * camera.fov_y.to_radians()).tan();
     let is_free = |way: &DVec3| taken.iter().all(|center| center.distance(from + *way) >= 0.5 * step);
     // As many steps as there are items cannot all be taken.
     (1..=taken.len() + 1).map(|k| k as f64 * step * right).find(is_free).unwrap_or(step * right)
 }
 
-/// The transform that brings patches into the picture: none where they already lie there in a visible size.
-pub(super) fn fitted(scene: &Scene, patches: &[ControlNet]) -> Transform {
+/// The transform that brings patches into a ball: their control points fill it, in their own orientation.
+pub(super) fn fitted(patches: &[ControlNet], room: &Sphere) -> Transform {
     let points = || patches.iter().flat_map(|net| net.points.into_iter().flatten());
     let low = points().fold(DVec3::INFINITY, DVec3::min);
     let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let (center, extent, size) = (0.5 * (low + high), (high - low).max_element(), size(scene));
-    let is_near = center.distance(scene.camera.target) <= 3.0 * size;
-    if !(extent > 0.0 && size > 0.0) || (is_near && VISIBLE.contains(&(extent / size))) {
-        return Transform::default();
+    let center = 0.5 * (low + high);
+    let radius = points().map(|point| point.distance(center)).fold(0.0, f64::max);
+    let scale = if radius > 0.0 { room.radius / radius } else { 1.0 };
+    let translate = room.center - scale * center;
+    // Points so large or so small that their size is no number stay as they are.
+    if scale.is_normal() && translate.is_finite() {
+        Transform { translate, scale: DVec3::splat(scale), ..Transform::default() }
+    } else {
+        Transform::default()
     }
-    let scale = (2.0 * size / extent).clamp(1e-6, 1e6);
-    let translate = free_place(scene, scene.camera.target) - scale * center;
-    Transform { translate, scale: DVec3::splat(scale), ..Transform::default() }
 }
 
 /// The centres of all objects and lights, world space.
@@ -62,14 +59,10 @@ fn centers(scene: &Scene) -> Vec<DVec3> {
     handles.filter_map(|handle| handle.position(scene)).collect()
 }
 
-/// The directions to the right and upwards in the picture; x and y for a camera without a direction.
-fn picture_axes(scene: &Scene) -> (DVec3, DVec3) {
+/// The direction to the right in the picture; x for a camera without a direction.
+fn right_in_picture(scene: &Scene) -> DVec3 {
     let camera = &scene.camera;
-    let forward = (camera.target - camera.position).normalize_or_zero();
-    match forward.cross(camera.up).try_normalize() {
-        Some(right) => (right, right.cross(forward)),
-        None => (DVec3::X, DVec3::Y),
-    }
+    (camera.target - camera.position).cross(camera.up).try_normalize().unwrap_or(DVec3::X)
 }
 
 #[cfg(test)]
@@ -77,29 +70,33 @@ mod tests {
     use super::*;
     use std::array;
 
+    const ROOM: Sphere = Sphere { center: DVec3::new(3.0, -1.0, 2.0), radius: 0.5 };
+
     fn net(low: f64, high: f64) -> ControlNet {
         let at = |k: usize| low + (high - low) * k as f64 / 3.0;
         ControlNet { points: array::from_fn(|i| array::from_fn(|j| DVec3::new(at(i), at(j), low))) }
     }
 
     #[test]
-    fn patches_out_of_sight_are_brought_into_the_picture() {
-        let scene = Scene::default();
+    fn patches_of_any_size_fill_the_ball() {
         for (low, high) in [(-500.0, 700.0), (0.0, 1e-4), (90.0, 91.0)] {
-            let world = fitted(&scene, &[net(low, high)]).world_from_object();
-            let ends = [low, high].map(|at| world.transform_point3(DVec3::new(at, at, low)));
-            let extent = (ends[1] - ends[0]).max_element();
-            assert!((extent - 2.0 * size(&scene)).abs() < 1e-9, "{low} to {high}: {extent}");
-            assert!(
-                (0.5 * (ends[0] + ends[1])).distance(scene.camera.target) < size(&scene),
-                "{low} to {high}: {ends:?}"
-            );
+            let net = net(low, high);
+            let transform = fitted(&[net], &ROOM);
+            assert_eq!(transform.rotate, DVec3::ZERO);
+            let distances = net.transformed(&transform.world_from_object()).points.into_iter().flatten();
+            let distances: Vec<_> = distances.map(|point| point.distance(ROOM.center)).collect();
+            let largest = distances.iter().copied().fold(0.0, f64::max);
+            // The centre cancels the translation: a few roundings of a hundred times the size.
+            assert!((largest - ROOM.radius).abs() < 1e-12, "{low} to {high}: {distances:?}");
         }
     }
 
     #[test]
-    fn patches_in_sight_keep_their_place() {
-        let (scene, half) = (Scene::default(), size(&Scene::default()));
-        assert_eq!(fitted(&scene, &[net(-half, half)]), Transform::default());
+    fn a_point_and_points_beyond_numbers_get_a_usable_transform() {
+        let far = net(-1e308, 1e308);
+        for (net, expected) in [(net(2.0, 2.0), ROOM.center - 2.0), (far, DVec3::ZERO)] {
+            let transform = fitted(&[net], &ROOM);
+            assert_eq!((transform.translate, transform.scale), (expected, DVec3::ONE));
+        }
     }
 }

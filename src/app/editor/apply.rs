@@ -27,6 +27,7 @@ impl Editor {
             AppCommand::Select(selection) => self.select(selection),
             AppCommand::View(camera) => self.show_camera(camera),
             AppCommand::Couple(coupling) => self.document.coupling = coupling,
+            AppCommand::Add(new) => self.add(new),
             AppCommand::AddFrom(purpose) => self.ask_for_path(ctx, purpose),
             AppCommand::Drop(path) => self.drop_file(ctx, path),
             AppCommand::GoTo(done) => self.document.go_to(done),

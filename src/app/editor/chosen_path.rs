@@ -55,10 +55,7 @@ impl Editor {
                     self.export.write_surface(ctx, surface, path);
                 }
             }
-            Purpose::AddSurface => match new_items::surface(&self.viewpoint.seen().scene, &path) {
-                Ok(object) => self.document.edit(Edit::AddObject(object)),
-                Err(error) => self.dialog = Some(Dialog::Error("The patches cannot be added".to_owned(), error)),
-            },
+            Purpose::AddSurface => self.add_surface(&path),
             Purpose::AddTexture => match new_items::texture(self.document.scene(), &path) {
                 Ok(texture) => self.document.edit(Edit::AddTexture(texture)),
                 Err(error) => self.dialog = Some(Dialog::Error("The texture cannot be added".to_owned(), error)),

@@ -120,8 +120,7 @@ impl Editor {
         let highest = (0.6 * ui.available_height()).max(80.0);
         let panel = Panel::top(id).resizable(true).default_size(outline).size_range(80.0..=highest);
         let panel = panel.show(ui, |ui| {
-            let seen = &self.viewpoint.seen().scene;
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, seen, commands));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| outline_ui(ui, &self.document, commands));
         });
         if wanted <= half {
             self.panel_sizes.outline = panel.response.rect.height();

@@ -14,9 +14,11 @@
 //! | `chosen_path` | uses a chosen path: open, save, export, add |
 //! | `selecting` | selects control points |
 //! | `shaping` | operations on the patches of the selected object |
+//! | `adding` | adds objects and lights where the camera looks |
 //! | `apply` | the one place that carries out commands |
 //! | `layout` | draws the content, then carries out the commands that its parts push |
 
+mod adding;
 mod apply;
 mod chosen_path;
 mod keeping;

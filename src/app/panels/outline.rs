@@ -2,8 +2,7 @@
 
 use super::icons::{self, Icon};
 use crate::app::commands::{Action, AppCommand, Purpose};
-use crate::app::document::{Document, Edit, Item, Selection, kinds, new_items};
-use crate::scene::Scene;
+use crate::app::document::{Document, Edit, Item, NewItem, Selection, kinds, new_items};
 use egui::{Align, Atom, Button, CollapsingHeader, IdSalt, Layout, Response, Ui, UiBuilder, Vec2};
 
 /// Spacing between rows, screen points: small, so that all sections fit in the panel.
@@ -29,19 +28,19 @@ struct Label<'a> {
     icon: Icon,
 }
 
-/// The scene as a list; a click selects an item. New items are placed for the camera of `seen`, the scene as it is shown.
-pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, seen: &Scene, commands: &mut Vec<AppCommand>) {
+/// The scene as a list; a click selects an item.
+pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     ui.spacing_mut().item_spacing.y = SPACING;
     row_ui(ui, document, Item::Camera, &Label { name: "Camera", kind: "", icon: Icon::Camera }, commands);
     let settings = Label { name: "Picture and rendering", kind: "", icon: Icon::Settings };
     row_ui(ui, document, Item::Settings, &settings, commands);
-    objects_ui(ui, document, seen, commands);
-    lights_ui(ui, document, seen, commands);
+    objects_ui(ui, document, commands);
+    lights_ui(ui, document, commands);
     materials_ui(ui, document, commands);
     textures_ui(ui, document, commands);
 }
 
-fn objects_ui(ui: &mut Ui, document: &Document, seen: &Scene, commands: &mut Vec<AppCommand>) {
+fn objects_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
     let objects = scene.objects.iter().map(|object| Label {
         name: &object.name,
@@ -49,18 +48,23 @@ fn objects_ui(ui: &mut Ui, document: &Document, seen: &Scene, commands: &mut Vec
         icon: Icon::of_shape(&object.shape),
     });
     section_ui(ui, &OBJECTS, objects, document, commands, |ui, commands| {
-        for (label, shape) in new_items::shapes() {
-            if ui.button(label).clicked() {
-                commands.push(AppCommand::Edit(Edit::AddObject(new_items::object(seen, label, shape(seen)))));
-            }
-        }
+        add_buttons_ui(ui, NewItem::OBJECTS, commands);
         if ui.button("patches from a .bpt file…").clicked() {
             commands.push(AppCommand::AddFrom(Purpose::AddSurface));
         }
     });
 }
 
-fn lights_ui(ui: &mut Ui, document: &Document, seen: &Scene, commands: &mut Vec<AppCommand>) {
+/// A button for each of the new items.
+fn add_buttons_ui(ui: &mut Ui, new: impl IntoIterator<Item = NewItem>, commands: &mut Vec<AppCommand>) {
+    for new in new {
+        if ui.button(new.label()).clicked() {
+            commands.push(AppCommand::Add(new));
+        }
+    }
+}
+
+fn lights_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
     let lights = scene.lights.iter().map(|light| Label {
         name: &light.name,
@@ -68,11 +72,7 @@ fn lights_ui(ui: &mut Ui, document: &Document, seen: &Scene, commands: &mut Vec<
         icon: Icon::of_emitter(&light.emitter),
     });
     section_ui(ui, &LIGHTS, lights, document, commands, |ui, commands| {
-        for (label, emitter) in new_items::emitters() {
-            if ui.button(label).clicked() {
-                commands.push(AppCommand::Edit(Edit::AddLight(new_items::light(seen, label, emitter))));
-            }
-        }
+        add_buttons_ui(ui, NewItem::LIGHTS, commands);
     });
 }
 

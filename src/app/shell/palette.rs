@@ -1,7 +1,7 @@
 //! The command palette: finds every action, item and example by parts of its name.
 
 use crate::app::commands::{Action, AppCommand, Next};
-use crate::app::document::{Edit, Item, Selection, new_items};
+use crate::app::document::{Item, NewItem, Selection};
 use crate::scene::{Scene, built_in_scenes};
 use egui::{Button, Context, Key, Modifiers, ScrollArea, TextEdit, ThemePreference, Ui};
 
@@ -95,12 +95,8 @@ fn entries(ctx: &Context, scene: &Scene) -> Vec<Entry> {
     });
     let items =
         items(scene).map(|(name, item)| plain(format!("Select {name}"), AppCommand::Select(Selection::of(item))));
-    let shapes = new_items::shapes().into_iter().map(|(label, shape)| {
-        plain(format!("Add {label}"), AppCommand::Edit(Edit::AddObject(new_items::object(scene, label, shape(scene)))))
-    });
-    let lights = new_items::emitters().into_iter().map(|(label, emitter)| {
-        plain(format!("Add {label}"), AppCommand::Edit(Edit::AddLight(new_items::light(scene, label, emitter))))
-    });
+    let new = NewItem::OBJECTS.into_iter().chain(NewItem::LIGHTS);
+    let new = new.map(|new| plain(format!("Add {}", new.label()), AppCommand::Add(new)));
     let examples = built_in_scenes().iter().map(|example| {
         plain(format!("Open example {}", example.title), AppCommand::Leave(Next::Example(example.name)))
     });
@@ -108,7 +104,7 @@ fn entries(ctx: &Context, scene: &Scene) -> Vec<Entry> {
         .into_iter()
         .zip(["Dark theme", "Light theme", "Theme of the system"])
         .map(|(theme, label)| plain(label.to_owned(), AppCommand::Theme(theme)));
-    actions.chain(themes).chain(items).chain(shapes).chain(lights).chain(examples).collect()
+    actions.chain(themes).chain(items).chain(new).chain(examples).collect()
 }
 
 /// The items of a scene with their names.
