@@ -1,3 +1,4 @@
+use super::UvRect;
 use crate::geometry::bezier::{ControlNet, Patch};
 use glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
@@ -11,6 +12,8 @@ pub struct Bezier {
     pub patches: Arc<Vec<ControlNet>>,
     /// The `.bpt` file with exactly these patches, relative to the scene file; `None` if the scene file holds them.
     pub file: Option<String>,
+    /// For each patch, the part of texture space that it shows; `None` if each shows the whole texture.
+    pub uv: Option<Arc<Vec<UvRect>>>,
 }
 
 impl Bezier {

@@ -5,6 +5,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `uv_rect` | [`UvRect`]: the part of texture space that a patch shows |
 //! | `camera`, `film`, `render`, `texture`, `material`, `light`, `object`, `bezier` | the tables of a scene |
 //! | `data` | [`Scene`], all tables |
 //! | `problem` | [`Problem`]: one error in a scene, by the path of the value |
@@ -39,6 +40,7 @@ mod snapshot;
 mod surface_export;
 mod surface_scene;
 mod texture;
+mod uv_rect;
 mod validate;
 
 pub use bezier::{Bezier, Transform};
@@ -56,4 +58,5 @@ pub use problem::Problem;
 pub use render::Render;
 pub use surface_export::{SurfaceExport, SurfaceFormat};
 pub use texture::{Encoding, Texture, TextureUse};
+pub use uv_rect::UvRect;
 pub use validate::{MAX_LENGTH, MAX_RADIANCE, MIN_LENGTH, validate};

@@ -27,7 +27,8 @@ pub(super) fn scene_of_patches(name: &str, nets: Vec<ControlNet>, file: String) 
     let object = |name: &str, shape| Object { name: name.to_owned(), material: name.to_owned(), shape, body: None };
     let below = bounds.min.y - ABOVE_GROUND * radius;
     let ground = Shape::Plane { point: DVec3::new(center.x, below, center.z), normal: DVec3::Y, u_axis: None };
-    let surface = Shape::Bezier(Bezier { transform: Transform::default(), patches: Arc::new(nets), file: Some(file) });
+    let surface =
+        Shape::Bezier(Bezier { transform: Transform::default(), patches: Arc::new(nets), file: Some(file), uv: None });
     let lamp = LAMP_DISTANCE * radius;
     Scene {
         name: name.to_owned(),

@@ -7,6 +7,7 @@
 //! | `precision` | [`Precision`]: how well the points of a surface are known |
 //! | `light` | [`Light`]: points, spheres, quads, suns and beams that emit |
 //! | `texture` | [`Image`]: decoded textures |
+//! | `texture_place` | where patches show their textures |
 //! | `material` | [`Material`] with its textures; [`Scattering`] at a point |
 //! | `sheets/` | the smooth surfaces that the patches of an object make |
 //! | `surface` | [`Surface`], the object or light of a primitive; [`SurfacePoint`], a hit as light transport reads it |
@@ -31,6 +32,7 @@ mod probes;
 mod sheets;
 mod surface;
 mod texture;
+mod texture_place;
 mod view;
 mod warnings;
 

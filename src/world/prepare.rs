@@ -3,6 +3,7 @@ use super::material::{Model, Relief, Source};
 use super::probes;
 use super::sheets::{Place, welded_sheets};
 use super::texture::{self, TextureKey};
+use super::texture_place::TexturePlaces;
 use super::{Camera, Contacts, Image, Light, Material, ParallelRays, Precision, PrepareError, Surface, View, World};
 use crate::geometry::bezier::{ControlNet, Patch};
 use crate::geometry::{Aggregate, Plane, Primitive, Quad, Sphere};
@@ -56,6 +57,7 @@ pub fn prepare(scene: &Scene, location: &Location, previous: Option<&World>) -> 
         view: View::default(),
         precisions,
         light_precisions,
+        texture_places: TexturePlaces::of(scene),
         textures: textures.decoded,
     };
     world.view = probes::view(&world, scene.camera.position.distance(scene.camera.target));

@@ -1,5 +1,6 @@
 use super::bodies::{Surroundings, touching};
 use super::texture::TextureKey;
+use super::texture_place::TexturePlaces;
 use super::{
     Body, Camera, Contacts, Image, Light, LightMedia, Material, Media, Precision, Scattering, Surface, SurfacePoint,
     View,
@@ -45,6 +46,8 @@ pub struct World {
     pub(super) precisions: Vec<Precision>,
     /// For each light, how well its points are known.
     pub(super) light_precisions: Vec<Precision>,
+    /// Where the patches show their textures.
+    pub(super) texture_places: TexturePlaces,
     /// The decoded images, for the next world.
     pub(super) textures: Vec<(TextureKey, Arc<Image>)>,
 }
@@ -163,6 +166,7 @@ impl World {
     fn textured_scattering(&self, point: &SurfacePoint, material: &Material) -> (Scattering, DVec3) {
         let primitive = &self.aggregate.primitives()[point.hit.primitive as usize];
         let tangents = primitive.tangents(&point.hit, point.n_geom);
+        let tangents = self.texture_places.tangents(point.hit.primitive, tangents);
         let n_front = material.shading_normal(point.n_geom, &tangents);
         // On the back side mirrored in the tangent plane, so that bumps stay bumps.
         let n_shade = if point.front { n_front } else { n_front - 2.0 * n_front.dot(point.n_geom) * point.n_geom };

@@ -51,7 +51,8 @@ mod tests {
         let height = [0.0, 1.0, 1.0, 0.0];
         let points = array::from_fn(|i| array::from_fn(|j| DVec3::new(i as f64, j as f64, height[i])));
         let transform = Transform { scale, ..Transform::default() };
-        let shape = Shape::Bezier(Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None });
+        let shape =
+            Shape::Bezier(Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None, uv: None });
         let object = Object { name: String::new(), material: String::new(), shape, body: None };
         Scene { objects: vec![object], ..Scene::default() }
     }

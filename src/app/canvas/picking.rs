@@ -155,7 +155,12 @@ mod tests {
         let points = array::from_fn(|i| array::from_fn(|j| DVec3::new(i as f64 / 3.0, j as f64 / 3.0, 0.0)));
         let transform = Transform { translate: DVec3::new(0.0, 0.0, 2.0), ..Transform::default() };
         let beside = ControlNet { points }.map(|point| point + 2.0 * DVec3::X);
-        Shape::Bezier(Bezier { transform, patches: Arc::new(vec![ControlNet { points }, beside]), file: None })
+        Shape::Bezier(Bezier {
+            transform,
+            patches: Arc::new(vec![ControlNet { points }, beside]),
+            file: None,
+            uv: None,
+        })
     }
 
     fn ball(z: f64) -> Shape {

@@ -3,12 +3,10 @@
 use super::handles::{self, Handle};
 use super::names::free_name;
 use super::selection::{Item, PointIndex};
-use crate::geometry::bezier::ControlNet;
 use crate::scene::{
-    Camera, Color, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Shape, Texture,
+    Bezier, Camera, Color, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Shape, Texture,
 };
 use glam::DVec3;
-use std::sync::Arc;
 
 /// A change of a scene; an index is the item's position in its list.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,8 +35,8 @@ pub(crate) enum Edit {
     MoveEach(Vec<(Handle, DVec3)>),
     /// Places control points of the object at this index at positions in object space, under this name of the edit.
     Place(usize, Vec<(PointIndex, DVec3)>, &'static str),
-    /// Replaces the patches of the object at this index, under this name of the edit.
-    Patches(usize, Vec<ControlNet>, &'static str),
+    /// Replaces the surface of the object at this index, under this name of the edit.
+    Patches(usize, Bezier, &'static str),
     /// Appends an object.
     AddObject(Object),
     /// Appends a material.
@@ -122,7 +120,7 @@ impl Edit {
             Self::Move(handles, by) => handles.into_iter().for_each(|handle| handle.translate(scene, by)),
             Self::MoveEach(ways) => ways.into_iter().for_each(|(handle, by)| handle.translate(scene, by)),
             Self::Place(object, points, _) => handles::place(scene, object, &points),
-            Self::Patches(object, patches, _) => replace_patches(scene, object, patches),
+            Self::Patches(object, surface, _) => replace_surface(scene, object, surface),
             Self::AddObject(object) => scene.objects.push(object),
             Self::AddMaterial(material) => scene.materials.push(material),
             Self::AddLight(light) => scene.lights.push(light),
@@ -147,11 +145,9 @@ fn replace<T>(list: &mut [T], index: usize, new: T) {
     }
 }
 
-fn replace_patches(scene: &mut Scene, object: usize, patches: Vec<ControlNet>) {
+fn replace_surface(scene: &mut Scene, object: usize, surface: Bezier) {
     if let Some(Object { shape: Shape::Bezier(bezier), .. }) = scene.objects.get_mut(object) {
-        bezier.patches = Arc::new(patches);
-        // The patches now differ from the `.bpt` file.
-        bezier.file = None;
+        *bezier = surface;
     }
 }
 

@@ -123,7 +123,7 @@ mod tests {
             net(|i, j| DVec3::new(j, 3.0 + i, 0.0)),
             net(|i, j| DVec3::new(i, 9.0 - j, 0.0)),
         ];
-        Bezier { transform: Transform::default(), patches: Arc::new(nets), file: None }
+        Bezier { transform: Transform::default(), patches: Arc::new(nets), file: None, uv: None }
     }
 
     fn point(patch: usize, i: usize, j: usize) -> PointIndex {
@@ -161,7 +161,7 @@ mod tests {
             })
         };
         let patches = Arc::new(vec![half(0.0), half(1.0)]);
-        let welds = Welds::of(&Bezier { transform: Transform::default(), patches, file: None });
+        let welds = Welds::of(&Bezier { transform: Transform::default(), patches, file: None, uv: None });
         let row: BTreeSet<_> = (0..4).map(|j| point(0, 2, j)).collect();
         let ring = with_lines(&welds, &row, Direction::Row);
         assert_eq!(ring, [0, 1].into_iter().flat_map(|patch| (0..4).map(move |j| point(patch, 2, j))).collect());

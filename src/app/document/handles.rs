@@ -218,7 +218,8 @@ mod tests {
             rotate: DVec3::new(10.0, 20.0, 30.0),
             scale: DVec3::new(1.0, 2.0, 0.5),
         };
-        let bezier = Bezier { transform, patches: Arc::new(vec![net(0.0), net(3.0)]), file: Some("a.bpt".into()) };
+        let bezier =
+            Bezier { transform, patches: Arc::new(vec![net(0.0), net(3.0)]), file: Some("a.bpt".into()), uv: None };
         let shape = Shape::Bezier(bezier);
         Scene {
             objects: vec![Object { name: "sheet".into(), material: String::new(), shape, body: None }],

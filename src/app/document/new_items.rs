@@ -129,7 +129,7 @@ pub(crate) fn texture(scene: &Scene, path: &Path) -> Result<Texture, String> {
 pub(crate) fn surface(scene: &Scene, path: &Path, room: &Sphere) -> Result<Object, String> {
     let file = absolute(path);
     let patches = Arc::new(Location::Unsaved.read_patches(&file)?);
-    let bezier = Bezier { transform: fitted(&patches, room), patches, file: Some(file) };
+    let bezier = Bezier { transform: fitted(&patches, room), patches, file: Some(file), uv: None };
     Ok(object(scene, &stem(path, "patches"), Shape::Bezier(bezier)))
 }
 
@@ -200,7 +200,7 @@ fn sheet(center: DVec3, half: f64) -> Bezier {
     let lift = |i: usize, j: usize| if (1..3).contains(&i) && (1..3).contains(&j) { 0.6 * half } else { 0.0 };
     let points = array::from_fn(|i| array::from_fn(|j| DVec3::new(along(j), lift(i, j), along(i))));
     let transform = Transform { translate: center, ..Transform::default() };
-    Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None }
+    Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None, uv: None }
 }
 
 fn object_name(scene: &Scene, wanted: &str) -> String {

@@ -3,19 +3,20 @@
 use super::state::Editor;
 use crate::app::commands::Action;
 use crate::app::document::surface::{Cut, Mirror, flattened, reset, smoothed, split};
-use crate::app::document::{Edit, Item, texture_names};
+use crate::app::document::{Edit, Item};
 use crate::scene::Bezier;
 
 impl Editor {
-    /// Splits the shown patch with its strips. The message tells what happens to textures.
+    /// Splits the shown patch with its strips.
     pub(super) fn split(&mut self, cut: Cut) {
         let Some((object, bezier)) = self.selected_patches() else { return };
-        let patches = split(&bezier, self.document.selection.patch, cut);
-        let (before, after, is_textured) = (bezier.patches.len(), patches.len(), self.is_textured(object));
-        self.document.edit(Edit::Patches(object, patches, "split patch"));
+        let surface = split(&bezier, self.document.selection.patch, cut);
+        let (before, after) = (bezier.patches.len(), surface.patches.len());
+        self.document.edit(Edit::Patches(object, surface, "split patch"));
         // Other control points have the indices now.
         self.document.selection.points.clear();
-        self.toasts.info(split_message(before, after, is_textured));
+        let patches = if before == 1 { "1 patch".to_owned() } else { format!("{before} patches") };
+        self.toasts.info(format!("{patches} became {after}"));
     }
 
     /// Flattens, smooths or resets the selected control points, or all of the shown patch.
@@ -53,31 +54,5 @@ impl Editor {
                 None
             }
         }
-    }
-
-    /// Whether the material of the object has a texture.
-    fn is_textured(&self, object: usize) -> bool {
-        let scene = self.document.scene();
-        let Some(object) = scene.objects.get(object) else { return false };
-        let mut materials = scene.materials.iter().filter(|material| material.name == object.material);
-        materials.any(|material| !texture_names(&mut material.clone()).is_empty())
-    }
-}
-
-/// The message after a split: a patch shows its texture from 0 to 1, so a split repeats the texture.
-fn split_message(before: usize, after: usize, is_textured: bool) -> String {
-    let patches = if before == 1 { "1 patch".to_owned() } else { format!("{before} patches") };
-    let texture = if is_textured { ". Each patch shows its whole texture, so the texture repeats." } else { "" };
-    format!("{patches} became {after}{texture}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_message_of_a_split_tells_what_happens_to_textures() {
-        assert_eq!(split_message(1, 2, false), "1 patch became 2");
-        assert!(split_message(3, 5, true).starts_with("3 patches became 5. Each patch shows its whole texture"));
     }
 }

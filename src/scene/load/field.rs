@@ -4,7 +4,7 @@ use super::notes::Notes;
 use crate::{
     geometry::bezier::ControlNet,
     math::Rgb,
-    scene::{Encoding, ToneCurve, problem::suggestion},
+    scene::{Encoding, ToneCurve, UvRect, problem::suggestion},
 };
 use glam::{DVec2, DVec3};
 use toml::de::DeValue;
@@ -178,6 +178,16 @@ impl Field for Rgb {
 
     fn read(value: &DeValue<'_>, path: &str, notes: &mut Notes) -> Option<Self> {
         array::<f32, 3>(value, path, Self::EXPECTED, notes).map(Self::from_array)
+    }
+}
+
+/// The texture coordinates of two opposite corners.
+impl Field for UvRect {
+    const EXPECTED: &'static str = "four numbers like [0.0, 0.0, 1.0, 1.0]";
+
+    fn read(value: &DeValue<'_>, path: &str, notes: &mut Notes) -> Option<Self> {
+        let [u0, v0, u1, v1] = array(value, path, Self::EXPECTED, notes)?;
+        Some(Self { start: DVec2::new(u0, v0), end: DVec2::new(u1, v1) })
     }
 }
 

@@ -272,7 +272,8 @@ fn bezier(t: &mut Table<'_>) -> Bezier {
         (false, false) => t.add("one of the keys `patches` and `file` is missing".to_owned()),
         _ => {}
     }
-    Bezier { transform, patches: Arc::new(t.optional("patches", Vec::new())), file }
+    let patches = Arc::new(t.optional("patches", Vec::new()));
+    Bezier { transform, patches, file, uv: t.maybe("uv").map(Arc::new) }
 }
 
 fn transform(t: &mut Table<'_>) -> Transform {

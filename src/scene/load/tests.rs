@@ -130,6 +130,28 @@ fn mistakes_are_named() {
 }
 
 #[test]
+fn mistakes_in_texture_coordinates_are_located() {
+    let row = "[[0,0,0],[0,0,1],[0,0,2],[0,0,3]],[[1,0,0],[1,1,1],[1,1,2],[1,0,3]]";
+    let net = format!("[{row},{}]", row.replace("[1,", "[3,").replace("[0,", "[2,"));
+    let cases = [
+        ("[[0, 0, 1, 1], [0, 0, 1, 1]]", "10:6: object[0].uv: found 2, expected a rectangle for each patch: 1"),
+        ("[]", "10:6: object[0].uv: found 0, expected a rectangle for each patch: 1"),
+        ("[[0, 0, 1]]", "10:7: object[0].uv[0]: found a list of 3, expected four numbers like"),
+        ("[[0, 0, 1, inf]]", "10:17: object[0].uv[0][3]: found the number inf, expected a finite number"),
+        ("[[0, 0.5, 1, 0.5]]", "10:7: object[0].uv[0]: found [0.0, 0.5, 1.0, 0.5], expected [u0, v0, u1, v1]"),
+        ("[[0, 0, 2e9, 1]]", "10:7: object[0].uv[0]: found [0.0, 0.0, 2000000000.0, 1.0], expected"),
+    ];
+    for (uv, expected) in cases {
+        let text = format!(
+            "[[material]]\nname = \"m\"\ntype = \"mirror\"\nreflectance = [1, 1, 1]\n[[object]]\nname = \"s\"\n\
+             type = \"bezier\"\nmaterial = \"m\"\npatches = [{net}]\nuv = {uv}\n"
+        );
+        let found = problems(&text);
+        assert!(found.len() == 1 && found[0].starts_with(expected), "{uv}\nshould say {expected}\nbut says {found:#?}");
+    }
+}
+
+#[test]
 fn one_mistake_is_one_problem() {
     // The material has a name although its type is unknown: the object that uses it is not blamed.
     let text = "[[material]]\nname = \"m\"\ntype = \"paint\"\n[[object]]\nname = \"s\"\ntype = \"sphere\"\n\

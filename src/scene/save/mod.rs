@@ -146,6 +146,9 @@ fn bezier(bezier: &Bezier, t: &mut Text) {
         Some(file) => t.key("file", file),
         None => t.list("patches", bezier.patches.iter().map(net)),
     }
+    if let Some(uv) = &bezier.uv {
+        t.list("uv", uv.iter().map(Value::toml));
+    }
 }
 
 #[cfg(test)]

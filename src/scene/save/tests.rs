@@ -1,6 +1,6 @@
 use super::super::{
     Bezier, Camera, Color, Emitter, Encoding, Film, Light, Location, Material, MaterialModel, Object, Relief, Render,
-    Scene, SceneFile, Shape, Texture, TextureUse, ToneCurve, Transform, validate,
+    Scene, SceneFile, Shape, Texture, TextureUse, ToneCurve, Transform, UvRect, validate,
 };
 use crate::{geometry::bezier::ControlNet, math::Rgb};
 use glam::{DVec2, DVec3};
@@ -115,6 +115,13 @@ fn transform() -> impl Strategy<Value = Transform> {
     ]
 }
 
+fn uv_rect() -> impl Strategy<Value = UvRect> {
+    [-9.0..9.0, -9.0..9.0, 0.01..9.0, -9.0..-0.01].prop_map(|[u, v, width, height]| {
+        let start = DVec2::new(u, v);
+        UvRect { start, end: start + DVec2::new(width, height) }
+    })
+}
+
 fn shape() -> impl Strategy<Value = Shape> {
     let row = || [point(), point(), point(), point()];
     let net = [row(), row(), row(), row()].prop_map(|points| ControlNet { points });
@@ -126,8 +133,10 @@ fn shape() -> impl Strategy<Value = Shape> {
             normal,
             u_axis: given.then_some(across)
         }),
-        (transform(), vec(net, 1..3)).prop_map(|(transform, patches)| {
-            Shape::Bezier(Bezier { transform, patches: Arc::new(patches), file: None })
+        (transform(), vec((net, uv_rect()), 1..3), any::<bool>()).prop_map(|(transform, patches, has_uv)| {
+            let (patches, uv): (Vec<_>, _) = patches.into_iter().unzip();
+            let uv = has_uv.then(|| Arc::new(uv));
+            Shape::Bezier(Bezier { transform, patches: Arc::new(patches), file: None, uv })
         }),
     ]
 }

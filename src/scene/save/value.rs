@@ -1,7 +1,7 @@
 use crate::{
     geometry::bezier::ControlNet,
     math::Rgb,
-    scene::{Color, Encoding, TextureUse, ToneCurve},
+    scene::{Color, Encoding, TextureUse, ToneCurve, UvRect},
 };
 use glam::{DVec2, DVec3};
 
@@ -94,6 +94,12 @@ impl Value for DVec2 {
 impl Value for DVec3 {
     fn toml(&self) -> String {
         format!("{:?}", self.to_array())
+    }
+}
+
+impl Value for UvRect {
+    fn toml(&self) -> String {
+        format!("{:?}", [self.start.x, self.start.y, self.end.x, self.end.y])
     }
 }
 

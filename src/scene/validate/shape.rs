@@ -1,8 +1,8 @@
 use super::{
-    checks::{Checks, MIN_LENGTH, is_point, parallel},
+    checks::{Checks, MAX_LENGTH, MIN_LENGTH, is_point, parallel},
     names::Names,
 };
-use crate::scene::{Bezier, Emitter, Light, Object, Shape, Transform};
+use crate::scene::{Bezier, Emitter, Light, Object, Shape, Transform, UvRect};
 use glam::DVec3;
 
 /// Checks a light.
@@ -75,6 +75,9 @@ fn bezier(bezier: &Bezier, checks: &mut Checks<'_>) {
     checks.require(bezier.file.as_deref() != Some(""), "file", || {
         "found an empty path, expected the path of a .bpt file".into()
     });
+    if let Some(uv) = &bezier.uv {
+        uv_rects(uv, bezier.patches.len(), checks);
+    }
     checks.require(!bezier.patches.is_empty(), "patches", || "found no patch, expected at least one".into());
     for (k, net) in bezier.patches.iter().enumerate() {
         for (i, row) in net.points.iter().enumerate() {
@@ -82,6 +85,20 @@ fn bezier(bezier: &Bezier, checks: &mut Checks<'_>) {
                 checks.point(&format!("patches[{k}][{i}][{j}]"), *point);
             }
         }
+    }
+}
+
+fn uv_rects(uv: &[UvRect], patches: usize, checks: &mut Checks<'_>) {
+    // Patches that are missing are a problem of their own.
+    checks.require(uv.len() == patches || patches == 0, "uv", || {
+        format!("found {}, expected a rectangle for each patch: {patches}", uv.len())
+    });
+    for (k, rect) in uv.iter().enumerate() {
+        let [u0, v0, u1, v1] = [rect.start.x, rect.start.y, rect.end.x, rect.end.y];
+        let is_usable = [u0, v0, u1, v1].iter().all(|x| x.abs() <= MAX_LENGTH) && u0 != u1 && v0 != v1;
+        checks.require(is_usable, &format!("uv[{k}]"), || {
+            format!("found [{u0:?}, {v0:?}, {u1:?}, {v1:?}], expected [u0, v0, u1, v1] up to {MAX_LENGTH:?}, with u0 other than u1 and v0 than v1")
+        });
     }
 }
 

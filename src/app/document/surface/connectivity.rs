@@ -164,7 +164,7 @@ pub(super) mod tests {
             ControlNet { points: from_fn(|i| from_fn(|j| point(3 * column + i, 3 * row + j))) }
         };
         let patches = Arc::new((0..columns * rows).map(net).collect());
-        Bezier { transform: Transform::default(), patches, file: None }
+        Bezier { transform: Transform::default(), patches, file: None, uv: None }
     }
 
     #[test]

@@ -2,7 +2,8 @@
 
 use super::connectivity::{Connectivity, Side};
 use crate::geometry::bezier::ControlNet;
-use crate::scene::Bezier;
+use crate::scene::{Bezier, UvRect};
+use std::sync::Arc;
 
 /// The parameters whose range a split halves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,20 +13,37 @@ pub(crate) enum Cut {
     Both,
 }
 
-/// The patches after a split of the patch number `patch`. The surface and the sides of its normals stay the same. The split goes on
-/// through the strip of patches across the cut edges, so that patches keep meeting in whole edges. The first piece of a patch
+/// The patches after a split of the patch number `patch`, with their parts of texture space. The surface, the sides of its normals
+/// and its texture stay the same. The split goes on through the strip of patches across the cut edges, so that patches keep meeting in whole edges. The first piece of a patch
 /// takes its place in the list, and the other pieces follow at the end.
-pub(crate) fn split(bezier: &Bezier, patch: usize, cut: Cut) -> Vec<ControlNet> {
+pub(crate) fn split(bezier: &Bezier, patch: usize, cut: Cut) -> Bezier {
     let cuts = strip(bezier, patch, cut);
-    let mut patches = bezier.patches.to_vec();
+    let (patches, uv) = (bezier.patches.to_vec(), bezier.uv.as_ref().map_or(Vec::new(), |uv| uv.to_vec()));
+    let rects = uv.into_iter().chain(std::iter::repeat(UvRect::default()));
+    let mut pieces: Vec<Piece> = patches.into_iter().zip(rects).collect();
     for (patch, [in_u, in_v]) in cuts.into_iter().enumerate() {
-        let whole = vec![patches[patch]];
-        let rows = if in_u { whole.iter().flat_map(ControlNet::split_u).collect() } else { whole };
-        let pieces = if in_v { rows.iter().flat_map(ControlNet::split_v).collect() } else { rows };
-        patches[patch] = pieces[0];
-        patches.extend_from_slice(&pieces[1..]);
+        let whole = vec![pieces[patch]];
+        let rows = if in_u { whole.iter().flat_map(halves_in_u).collect() } else { whole };
+        let parts = if in_v { rows.iter().flat_map(halves_in_v).collect() } else { rows };
+        pieces[patch] = parts[0];
+        pieces.extend_from_slice(&parts[1..]);
     }
-    patches
+    let (patches, uv) = pieces.into_iter().unzip();
+    // The patches now differ from those of a `.bpt` file.
+    Bezier { patches: Arc::new(patches), uv: Some(Arc::new(uv)), file: None, ..*bezier }
+}
+
+/// A patch with its part of texture space.
+type Piece = (ControlNet, UvRect);
+
+fn halves_in_u((net, rect): &Piece) -> [Piece; 2] {
+    let ([a, b], [left, right]) = (net.split_u(), rect.split_u());
+    [(a, left), (b, right)]
+}
+
+fn halves_in_v((net, rect): &Piece) -> [Piece; 2] {
+    let ([a, b], [left, right]) = (net.split_v(), rect.split_v());
+    [(a, left), (b, right)]
 }
 
 /// For each patch, whether the split halves its range of u and its range of v.
@@ -54,7 +72,6 @@ mod tests {
     use super::super::connectivity::tests::sheet;
     use super::*;
     use std::array::from_fn;
-    use std::sync::Arc;
 
     fn wavy() -> Bezier {
         sheet(3, 2, |x, z| (1.3 * x).sin() + (0.7 * z).cos())
@@ -63,17 +80,17 @@ mod tests {
     #[test]
     fn a_split_goes_through_the_whole_strip() {
         let bezier = wavy();
-        let count = |cut| split(&bezier, 1, cut).len() - 6;
+        let count = |cut| split(&bezier, 1, cut).patches.len() - 6;
         // u runs along the columns: a cut in u crosses two rows, a cut in v three columns.
         assert_eq!((count(Cut::U), count(Cut::V)), (2, 3));
         assert_eq!(count(Cut::Both), 2 + 3 + 1, "the split patch is one of both strips");
-        assert_eq!(split(&bezier, 99, Cut::U), *bezier.patches, "a patch that is not there");
+        assert_eq!(split(&bezier, 99, Cut::U).patches, bezier.patches, "a patch that is not there");
     }
 
     #[test]
     fn the_pieces_are_the_surface_with_its_normals() {
         let bezier = wavy();
-        let patches = split(&bezier, 0, Cut::Both);
+        let patches = split(&bezier, 0, Cut::Both).patches;
         // The pieces of patch 0: itself, then (low u, high v), (high u, low v), (high u, high v).
         let pieces = [patches[0], patches[6], patches[7], patches[8]];
         for (k, piece) in pieces.iter().enumerate() {
@@ -99,8 +116,7 @@ mod tests {
         assert_eq!(seams(&bezier), 7);
         for cut in [Cut::U, Cut::V, Cut::Both] {
             for patch in 0..6 {
-                let patches = split(&bezier, patch, cut);
-                let after = Bezier { patches: Arc::new(patches), ..bezier.clone() };
+                let after = split(&bezier, patch, cut);
                 let (count, borders) = (after.patches.len(), Connectivity::of(&after).borders().count());
                 // Every side of a patch is on the border or shares a seam with one other side.
                 assert_eq!(2 * seams(&after) + borders, 4 * count, "{cut:?} of patch {patch}");

@@ -1,8 +1,10 @@
 use super::*;
 use crate::app::document::PointIndex;
-use crate::scene::Bezier;
+use crate::app::document::surface::{Cut, split};
+use crate::math::{Ray, Rgb};
+use crate::scene::{Bezier, Color, Location, MaterialModel, Relief, Shape, TextureUse};
 use crate::world::{Surface, prepare};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 fn object(ui: &Ui) -> usize {
     let Item::Object(object) = ui.state().document.selection.item else { panic!("an object is selected") };
@@ -71,6 +73,53 @@ fn a_split_keeps_the_surface_and_closes_every_seam() {
     assert!((area(&after) / area(&before) - 1.0).abs() < 1e-4, "{} is not {}", area(&after), area(&before));
     press(&mut ui, Key::Z);
     assert_eq!(bezier(&ui), before);
+}
+
+/// Reflectance and shading normal where rays from the camera to these points meet the scene.
+fn texture_seen(scene: &Scene, targets: &[DVec3]) -> Vec<(Rgb, DVec3)> {
+    let world = prepare(scene, &Location::BuiltIn("report".to_owned()), None).unwrap();
+    let points = targets.iter().filter_map(|target| {
+        let ray = Ray::between(world.camera.position, world.camera.position + 2.0 * (*target - world.camera.position));
+        let point = world.surface_point(&ray, world.closest_hit(&ray)?);
+        let (scattering, normal) = world.scattering(&point, 0);
+        Some((scattering.albedo, normal))
+    });
+    points.collect()
+}
+
+#[test]
+fn a_split_keeps_texture_and_relief() {
+    let mut scene = SceneFile::built_in("report").unwrap().scene;
+    let textured = |name: &str| TextureUse { texture: name.to_owned(), scale: DVec2::new(2.0, 1.5) };
+    let reliefs = [
+        None,
+        Some(Relief::Normal { map: textured("bricks-normal"), strength: 1.0 }),
+        Some(Relief::Height { map: textured("face"), depth: 0.05 }),
+    ];
+    scene.objects.retain(|object| matches!(object.shape, Shape::Bezier(_)));
+    scene.objects.truncate(1);
+    scene.materials.truncate(1);
+    scene.objects[0].material.clone_from(&scene.materials[0].name);
+    let Shape::Bezier(whole) = scene.objects[0].shape.clone() else { panic!("a surface of patches") };
+    let (nets, place) = (whole.placed_nets(), |k: usize| (0.037 * k as f64) % 1.0);
+    let targets: Vec<_> = (0..800).map(|k| nets[0].eval(place(k), place(17 * k + 5))).collect();
+    for relief in reliefs {
+        scene.materials[0].model = MaterialModel::Diffuse { albedo: Color::Texture(textured("face")) };
+        scene.materials[0].relief = relief;
+        let before = texture_seen(&scene, &targets);
+        let mut parted = scene.clone();
+        parted.objects[0].shape = Shape::Bezier(split(&split(&whole, 0, Cut::Both), 0, Cut::U));
+        let after = texture_seen(&parted, &targets);
+        assert_eq!((before.len(), after.len()), (800, 800), "each ray meets the surface");
+        // A ray meets the halves up to 1e-9 of the patch elsewhere; a texel is a hundredth.
+        let equal = before.iter().zip(&after).filter(|(a, b)| (a.0 - b.0).length() < 1e-4 && a.1.distance(b.1) < 1e-4);
+        assert_eq!(equal.count(), before.len(), "{:?}", scene.materials[0].relief);
+        let Shape::Bezier(surface) = &mut parted.objects[0].shape else { panic!("a surface of patches") };
+        surface.uv = None;
+        let repeated = texture_seen(&parted, &targets);
+        let changed = before.iter().zip(&repeated).filter(|(a, b)| (a.0 - b.0).length() > 0.01);
+        assert!(changed.count() > 50, "without texture coordinates the texture repeats");
+    }
 }
 
 #[test]
