@@ -28,6 +28,17 @@ enum Motion {
     Dolly,
 }
 
+impl Motion {
+    /// The name of the motion, in the history.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Orbit => "orbit view",
+            Self::Pan => "pan view",
+            Self::Dolly => "move view nearer or farther",
+        }
+    }
+}
+
 /// A drag that moves the camera.
 #[derive(Clone, Copy, Debug)]
 struct CameraDrag {
@@ -88,7 +99,7 @@ impl Navigation {
             if let Some(pointer) = canvas.interact_pointer_pos() {
                 let next = drag.camera(stage, camera, pointer);
                 drag.pointer = pointer;
-                commands.extend((next != *camera).then_some(AppCommand::View(next)));
+                commands.extend((next != *camera).then_some(AppCommand::View(next, drag.motion.name())));
             }
             drag.show(ui, stage);
         }
@@ -131,7 +142,7 @@ impl Navigation {
         let pivot = goes_on.map_or_else(|| point_under(stage, camera, pointer), |turn| turn.pivot);
         self.wheel = Some(WheelTurn { pivot, pointer, time });
         let next = dollied(camera, pivot, (-WHEEL_SPEED * f64::from(scroll)).exp());
-        commands.extend((next != *camera).then_some(AppCommand::View(next)));
+        commands.extend((next != *camera).then_some(AppCommand::View(next, Motion::Dolly.name())));
         // The gesture ends by a frame after the pause.
         ui.request_repaint_after_secs(WHEEL_PAUSE as f32);
         true

@@ -18,8 +18,8 @@ pub(crate) enum AppCommand {
     Edit(Edit),
     /// Change the selection.
     Select(Selection),
-    /// Show the scene with this camera.
-    View(Camera),
+    /// Show the scene with this camera, under this name of the change.
+    View(Camera, &'static str),
     /// Change which control points move together.
     Couple(Coupling),
     /// Add an object or a light where the camera looks.

@@ -15,8 +15,8 @@ pub(crate) enum Edit {
     Name(String),
     /// The camera.
     Camera(Camera),
-    /// The camera, moved by navigation.
-    View(Camera),
+    /// The camera, moved by navigation under this name of the edit.
+    View(Camera, &'static str),
     /// Image size, exposure and tone curve.
     Film(Film),
     /// The limits of light transport and the background.
@@ -58,7 +58,7 @@ impl Edit {
         match self {
             Self::Name(_) => ("rename scene", 0),
             Self::Camera(_) => ("edit camera", 0),
-            Self::View(_) => ("change view", 0),
+            Self::View(_, name) => (name, 0),
             Self::Film(_) => ("edit picture settings", 0),
             Self::Render(_) => ("edit render settings", 0),
             Self::Object(index, _) => ("edit object", *index),
@@ -110,7 +110,7 @@ impl Edit {
     pub(crate) fn apply(self, scene: &mut Scene) {
         match self {
             Self::Name(name) => scene.name = name,
-            Self::Camera(camera) | Self::View(camera) => scene.camera = camera,
+            Self::Camera(camera) | Self::View(camera, _) => scene.camera = camera,
             Self::Film(film) => scene.film = film,
             Self::Render(render) => scene.render = render,
             Self::Object(index, object) => replace(&mut scene.objects, index, object),

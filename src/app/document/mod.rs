@@ -10,6 +10,7 @@
 //! | `surface/` | operations on the patches of an object, and which control points move together |
 //! | `placement` | the places and sizes of new items |
 //! | `edit` | [`Edit`]: every change of a scene, as data |
+//! | `changed_field` | the field that an edit changes |
 //! | `edit_name` | the names of edits in menus and in the history |
 //! | `history` | undo and redo of whole states |
 //! | `kinds` | the kinds of shapes, lights, materials and textures: names, and conversions |
@@ -17,6 +18,7 @@
 //! | `stamp` | the state of a file on disk |
 //! | `state` | [`Document`]: the scene with its file, selection and history |
 
+mod changed_field;
 mod edit;
 mod edit_name;
 mod growth;

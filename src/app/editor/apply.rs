@@ -25,7 +25,7 @@ impl Editor {
             AppCommand::Do(action) => self.act(ctx, action),
             AppCommand::Edit(edit) => self.edit(edit),
             AppCommand::Select(selection) => self.select(selection),
-            AppCommand::View(camera) => self.show_camera(camera),
+            AppCommand::View(camera, name) => self.show_camera(camera, name),
             AppCommand::Couple(coupling) => self.document.coupling = coupling,
             AppCommand::Add(new) => self.add(new),
             AppCommand::AddFrom(purpose) => self.ask_for_path(ctx, purpose),

@@ -13,13 +13,13 @@ impl Editor {
         self.viewpoint.seen().scene.camera
     }
 
-    /// Shows the scene with this camera: the window's own while the user looks around, else the document's. The changes of
+    /// Shows the scene with this camera, under this name of the change: the window's own while the user looks around, else the document's. The changes of
     /// a gesture are one undo step.
-    pub(crate) fn show_camera(&mut self, camera: Camera) {
+    pub(crate) fn show_camera(&mut self, camera: Camera, name: &'static str) {
         if self.viewpoint.looks_around() {
             self.viewpoint.look(Some(camera));
         } else {
-            self.document.edit(Edit::View(camera));
+            self.document.edit(Edit::View(camera, name));
         }
     }
 
@@ -38,7 +38,7 @@ impl Editor {
             NamedView::Next => self.visited.forward(),
         };
         if let Some(camera) = found {
-            self.show_camera(camera);
+            self.show_camera(camera, view.name());
             self.document.end_gesture();
         }
     }
@@ -66,7 +66,7 @@ impl Editor {
         let camera = self.seen_camera();
         self.viewpoint.look(None);
         self.document.end_gesture();
-        self.document.edit(Edit::View(camera));
+        self.document.edit(Edit::View(camera, "use view as camera"));
     }
 
     /// Reverts the drag in progress.

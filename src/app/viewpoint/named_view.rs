@@ -17,6 +17,23 @@ pub(crate) enum NamedView {
     Next,
 }
 
+impl NamedView {
+    /// The name of the change of the camera, in the history.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Selection => "frame selection",
+            Self::All => "frame all",
+            Self::From(Side::Front) => "front view",
+            Self::From(Side::Right) => "right view",
+            Self::From(Side::Top) => "top view",
+            Self::From(Side::Opposite) => "opposite view",
+            Self::Own => "scene's own view",
+            Self::Previous => "previous view",
+            Self::Next => "next view",
+        }
+    }
+}
+
 /// A side from which the camera looks at its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Side {

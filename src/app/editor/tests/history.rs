@@ -21,7 +21,7 @@ fn a_click_in_the_history_goes_to_a_state() {
     choose_from_menu(&mut ui, &["Edit"]);
     ui.get_by_label_contains("Show history").click();
     ui.run_steps(4);
-    click(&mut ui, "edit picture settings");
+    click(&mut ui, "change exposure");
     assert_eq!(scene(&ui).objects.len(), objects + 1, "the deletion is undone");
     assert_eq!(ui.state().document.done_steps(), 2);
     click(&mut ui, "Start");
@@ -38,7 +38,7 @@ fn the_menu_names_the_edit_and_its_item() {
     let name = ui.state().document.selection.object(scene(&ui)).unwrap().name.clone();
     edit(&mut ui);
     choose_from_menu(&mut ui, &["Edit"]);
-    assert!(ui.query_by_label_contains(&format!("Undo edit object {name}")).is_some());
+    assert!(ui.query_by_label_contains(&format!("Undo change corner of {name}")).is_some());
 }
 
 #[test]

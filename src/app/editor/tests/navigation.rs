@@ -82,7 +82,7 @@ fn an_alt_drag_on_a_control_point_does_not_move_it() {
     let at = ui.get_by_label(POINT).rect().center();
     drag(&mut ui, PointerButton::Primary, Modifiers::ALT, at, vec2(30.0, 0.0));
     assert_eq!(scene(&ui).objects, objects);
-    assert_eq!(ui.state().document.undoable(), Some("change view"));
+    assert_eq!(ui.state().document.undoable(), Some("orbit view"));
 }
 
 #[test]

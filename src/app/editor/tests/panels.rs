@@ -56,7 +56,7 @@ fn exposure_does_not_restart_rendering_and_can_be_undone() {
     ui.key_press(Key::Enter);
     ui.run_steps(2);
     assert_eq!(scene(&ui).film.exposure, 2.0);
-    assert_eq!(ui.state().document.undoable(), Some("edit picture settings"));
+    assert_eq!(ui.state().document.undoable(), Some("change exposure"));
     assert!(sent_scenes(&mut ui).is_empty(), "the radiance is the same");
     ui.state_mut().document.undo();
     assert_eq!(scene(&ui).film.exposure, before);
