@@ -54,7 +54,7 @@ mod view;
 mod visibility;
 mod widget;
 
-pub(crate) use analysis::Analysis;
+pub(crate) use analysis::{Analysis, Shading};
 pub(crate) use free_space::{Aim, free_ball};
 pub(crate) use projection::Projection;
 pub(crate) use snap::{automatic_step, steps_around};

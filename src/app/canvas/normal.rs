@@ -21,7 +21,7 @@ pub(crate) fn at_selection(scene: &Scene, selection: &Selection) -> Option<DVec3
             Emitter::Beam { direction, .. } => *direction,
             Emitter::Point { .. } | Emitter::Sphere { .. } | Emitter::Sun { .. } => return None,
         },
-        Item::Camera | Item::Settings | Item::Material(_) | Item::Texture(_) => return None,
+        Item::Nothing | Item::Camera | Item::Settings | Item::Material(_) | Item::Texture(_) => return None,
     };
     normal.try_normalize()
 }

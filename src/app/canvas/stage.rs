@@ -164,7 +164,7 @@ impl Stage<'_> {
                 firsts.into_iter().map(|point| Handle::Point { object, point }).collect()
             }
             Item::Light(light) => vec![Handle::Light(light)],
-            Item::Camera | Item::Settings | Item::Material(_) | Item::Texture(_) => Vec::new(),
+            Item::Nothing | Item::Camera | Item::Settings | Item::Material(_) | Item::Texture(_) => Vec::new(),
         }
     }
 

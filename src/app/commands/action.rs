@@ -75,30 +75,29 @@ const NONE: Modifiers = Modifiers::NONE;
 type Keys = &'static [(Modifiers, Key)];
 type Row = (Action, &'static str, Keys);
 
-/// Each action with its label and shortcuts. Of two shortcuts that differ only in Shift, the shortcut with Shift comes
-/// first, because egui's `consume_shortcut` ignores Shift where a shortcut does not ask for it.
+/// Each action with its label and shortcuts, in the order of the help and of the palette.
 const TABLE: &[Row] = &[
     (Action::New, "New scene", &[(CTRL, Key::N)]),
     (Action::Open, "Open…", &[(CTRL, Key::O)]),
-    (Action::SaveAs, "Save as…", &[(CTRL_SHIFT, Key::S)]),
     (Action::Save, "Save", &[(CTRL, Key::S)]),
-    (Action::ExportSurface, "Export surface…", &[(CTRL_SHIFT, Key::E)]),
+    (Action::SaveAs, "Save as…", &[(CTRL_SHIFT, Key::S)]),
     (Action::Export, "Export picture…", &[(CTRL, Key::E)]),
+    (Action::ExportSurface, "Export surface…", &[(CTRL_SHIFT, Key::E)]),
     (Action::Quit, "Quit", &[(CTRL, Key::Q)]),
-    (Action::Redo, "Redo", &[(CTRL_SHIFT, Key::Z), (CTRL, Key::Y)]),
     (Action::Undo, "Undo", &[(CTRL, Key::Z)]),
+    (Action::Redo, "Redo", &[(CTRL_SHIFT, Key::Z), (CTRL, Key::Y)]),
     (Action::ToggleHistory, "Show history", &[(CTRL, Key::H)]),
     (Action::Duplicate, "Duplicate", &[(CTRL, Key::D)]),
     (Action::Delete, "Delete", &[(NONE, Key::Delete)]),
-    (Action::SelectNone, "Select no control points", &[(CTRL_SHIFT, Key::A)]),
     (Action::SelectAll, "Select all of the patch, then of the object", &[(CTRL, Key::A)]),
+    (Action::SelectNone, "Select no control points", &[(CTRL_SHIFT, Key::A)]),
     (Action::SelectRectangle, "Select by rectangle", &[(NONE, Key::B)]),
     (Action::SelectRow, "Select row, then the whole strip", &[(NONE, Key::I)]),
     (Action::SelectColumn, "Select column, then the whole strip", &[(NONE, Key::J)]),
     (Action::ToggleFalloff, "Soft selection", &[(NONE, Key::O)]),
-    (Action::SplitBoth, "Split patch into four", &[(CTRL, Key::U)]),
-    (Action::SplitV, "Split patch in v (insert column)", &[(Modifiers::SHIFT, Key::U)]),
     (Action::SplitU, "Split patch in u (insert row)", &[(NONE, Key::U)]),
+    (Action::SplitV, "Split patch in v (insert column)", &[(Modifiers::SHIFT, Key::U)]),
+    (Action::SplitBoth, "Split patch into four", &[(CTRL, Key::U)]),
     (Action::Flatten, "Flatten control points", &[(Modifiers::SHIFT, Key::P)]),
     (Action::Smooth, "Smooth control points", &[(Modifiers::SHIFT, Key::S)]),
     (Action::ResetPoints, "Reset control points", &[(Modifiers::SHIFT, Key::R)]),
@@ -110,8 +109,8 @@ const TABLE: &[Row] = &[
     (Action::OneToOne, "Actual pixels", &[(CTRL, Key::Num1)]),
     (Action::ZoomIn, "Zoom in", &[(CTRL, Key::Plus), (CTRL, Key::Equals)]),
     (Action::ZoomOut, "Zoom out", &[(CTRL, Key::Minus)]),
-    (Action::Darker, "Decrease exposure by half a stop", &[(Modifiers::SHIFT, Key::E)]),
     (Action::Brighter, "Increase exposure by half a stop", &[(NONE, Key::E)]),
+    (Action::Darker, "Decrease exposure by half a stop", &[(Modifiers::SHIFT, Key::E)]),
     (Action::View(NamedView::Selection), "Frame selection", &[(NONE, Key::Period)]),
     (Action::View(NamedView::All), "Frame all", &[(NONE, Key::Home)]),
     (Action::View(NamedView::From(Side::Front)), "View from the front", &[(NONE, Key::Num1)]),
@@ -127,10 +126,10 @@ const TABLE: &[Row] = &[
     (Action::MatchWindow, "Match window", &[(NONE, Key::W)]),
     (Action::ToggleHandles, "Show handles", &[(NONE, Key::H)]),
     (Action::ToggleXRay, "Show hidden handles (X-ray)", &[(Modifiers::ALT, Key::Z)]),
-    (Action::ToggleZebra, "Show reflection lines (zebra)", &[(CTRL_SHIFT, Key::K)]),
     (Action::ToggleIsolines, "Show isolines", &[(CTRL, Key::K)]),
-    (Action::ToggleGaussianCurvature, "Show Gaussian curvature", &[(Modifiers::SHIFT, Key::K)]),
+    (Action::ToggleZebra, "Show reflection lines (zebra)", &[(CTRL_SHIFT, Key::K)]),
     (Action::ToggleMeanCurvature, "Show mean curvature", &[(NONE, Key::K)]),
+    (Action::ToggleGaussianCurvature, "Show Gaussian curvature", &[(Modifiers::SHIFT, Key::K)]),
     (Action::TogglePanels, "Show panels", &[(CTRL, Key::B)]),
     (Action::FullScreen, "Full screen", &[(NONE, Key::F11)]),
     (Action::Palette, "Find a command…", &[(CTRL, Key::P)]),
@@ -205,20 +204,27 @@ fn blocked_by(action: Action, modifiers: Modifiers, key: Key) -> BlockedBy {
     }
 }
 
+/// All shortcuts with their actions, those with Shift first: egui's `consume_shortcut` ignores Shift where a shortcut does
+/// not ask for it.
+fn shortcuts() -> impl Iterator<Item = (Action, Modifiers, Key)> {
+    let all =
+        || TABLE.iter().flat_map(|(action, _, keys)| keys.iter().map(|(modifiers, key)| (*action, *modifiers, *key)));
+    let with_shift = |shift: bool| all().filter(move |(_, modifiers, _)| modifiers.shift == shift);
+    with_shift(true).chain(with_shift(false))
+}
+
 /// The actions whose shortcuts were pressed in this frame. Widgets do not see these key presses.
 pub(crate) fn pressed(ctx: &Context) -> Vec<Action> {
     let (text, focus) = (ctx.text_edit_focused(), ctx.egui_wants_keyboard_input());
     let mut actions = Vec::new();
-    for (action, _, keys) in TABLE {
-        for (modifiers, key) in *keys {
-            let blocked = match blocked_by(*action, *modifiers, *key) {
-                BlockedBy::Nothing => false,
-                BlockedBy::Text => text,
-                BlockedBy::AnyFocus => focus,
-            };
-            if !blocked && ctx.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(*modifiers, *key))) {
-                actions.push(*action);
-            }
+    for (action, modifiers, key) in shortcuts() {
+        let blocked = match blocked_by(action, modifiers, key) {
+            BlockedBy::Nothing => false,
+            BlockedBy::Text => text,
+            BlockedBy::AnyFocus => focus,
+        };
+        if !blocked && ctx.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(modifiers, key))) {
+            actions.push(action);
         }
     }
     actions
@@ -239,16 +245,28 @@ mod tests {
     }
 
     #[test]
-    fn a_shortcut_with_shift_comes_first() {
-        let row = |wanted| TABLE.iter().position(|(action, ..)| *action == wanted).unwrap();
-        assert!(row(Action::SaveAs) < row(Action::Save), "consume_shortcut ignores Shift");
-        assert!(row(Action::ExportSurface) < row(Action::Export), "consume_shortcut ignores Shift");
-        assert!(row(Action::SelectNone) < row(Action::SelectAll), "consume_shortcut ignores Shift");
-        assert!(row(Action::Redo) < row(Action::Undo), "consume_shortcut ignores Shift");
-        assert!(row(Action::ResetPoints) < row(Action::Restart), "consume_shortcut ignores Shift");
-        assert!(row(Action::SplitV) < row(Action::SplitU), "consume_shortcut ignores Shift");
-        assert!(row(Action::ToggleZebra) < row(Action::ToggleIsolines), "consume_shortcut ignores Shift");
-        assert!(row(Action::ToggleGaussianCurvature) < row(Action::ToggleMeanCurvature), "as above");
-        assert!(row(Action::Darker) < row(Action::Brighter), "consume_shortcut ignores Shift");
+    fn each_shortcut_performs_its_action_alone() {
+        for (action, modifiers, key) in shortcuts() {
+            let ctx = Context::default();
+            let event = egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+            let input = egui::RawInput { events: vec![event], ..Default::default() };
+            let mut found = Vec::new();
+            drop(ctx.run_ui(input, |ui| found.extend(pressed(ui.ctx()))));
+            assert_eq!(found, [action], "{modifiers:?} {key:?}");
+        }
+    }
+
+    #[test]
+    fn the_simple_action_stands_before_its_variant() {
+        let row = |wanted| Action::all().position(|action| action == wanted).unwrap();
+        for (simple, variant) in [
+            (Action::Save, Action::SaveAs),
+            (Action::Export, Action::ExportSurface),
+            (Action::Undo, Action::Redo),
+            (Action::SelectAll, Action::SelectNone),
+            (Action::SplitU, Action::SplitBoth),
+        ] {
+            assert!(row(simple) < row(variant), "{simple:?}");
+        }
     }
 }

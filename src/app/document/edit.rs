@@ -76,15 +76,15 @@ impl Edit {
         }
     }
 
-    /// The item to select after this edit of `scene`: an added item; after a removal the camera, which a second "Delete"
-    /// does not remove. `None` where the selection stays.
+    /// The item to select after this edit of `scene`: an added item; after a removal nothing, so that a second "Delete"
+    /// removes nothing. `None` where the selection stays.
     pub(crate) fn selects(&self, scene: &Scene) -> Option<Item> {
         Some(match self {
             Self::AddObject(_) => Item::Object(scene.objects.len()),
             Self::AddMaterial(_) => Item::Material(scene.materials.len()),
             Self::AddLight(_) => Item::Light(scene.lights.len()),
             Self::AddTexture(_) => Item::Texture(scene.textures.len()),
-            Self::Remove(_) => Item::Camera,
+            Self::Remove(_) => Item::Nothing,
             _ => return None,
         })
     }

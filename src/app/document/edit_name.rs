@@ -92,7 +92,7 @@ fn with_item(action: &str, item: Option<&str>) -> String {
 /// The name of an item; `None` for the camera, the settings, and an item that the scene lacks.
 fn name_of(scene: &Scene, item: Item) -> Option<&str> {
     Some(match item {
-        Item::Camera | Item::Settings => return None,
+        Item::Nothing | Item::Camera | Item::Settings => return None,
         Item::Object(index) => &scene.objects.get(index)?.name,
         Item::Material(index) => &scene.materials.get(index)?.name,
         Item::Light(index) => &scene.lights.get(index)?.name,

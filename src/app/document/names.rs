@@ -11,7 +11,7 @@ pub(super) fn free_name(scene: &Scene, item: Item, wanted: &str) -> String {
         Item::Material(index) => (scene.materials.iter().map(|material| material.name.as_str()).collect(), index),
         Item::Light(index) => (scene.lights.iter().map(|light| light.name.as_str()).collect(), index),
         Item::Texture(index) => (scene.textures.iter().map(|texture| texture.name.as_str()).collect(), index),
-        Item::Camera | Item::Settings => return wanted.to_owned(),
+        Item::Nothing | Item::Camera | Item::Settings => return wanted.to_owned(),
     };
     let taken = |name: &str| names.iter().enumerate().any(|(other, taken)| other != index && *taken == name);
     if !taken(wanted) {

@@ -162,7 +162,7 @@ pub(crate) fn duplicate(scene: &Scene, item: Item) -> Option<Edit> {
             let original = scene.materials.get(index)?;
             Edit::AddMaterial(Material { name: material_name(scene, &original.name), ..original.clone() })
         }
-        Item::Camera | Item::Settings | Item::Texture(_) => return None,
+        Item::Nothing | Item::Camera | Item::Settings | Item::Texture(_) => return None,
     })
 }
 

@@ -6,6 +6,8 @@ use std::collections::BTreeSet;
 /// A part of the scene that can be selected; an index is its position in the scene's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub(crate) enum Item {
+    /// Nothing, after a removal.
+    Nothing,
     /// The camera.
     #[default]
     Camera,
@@ -54,7 +56,7 @@ impl Selection {
     /// This selection without items and control points that `scene` lacks.
     pub(crate) fn within(mut self, scene: &Scene) -> Self {
         let exists = match self.item {
-            Item::Camera | Item::Settings => true,
+            Item::Nothing | Item::Camera | Item::Settings => true,
             Item::Object(index) => index < scene.objects.len(),
             Item::Material(index) => index < scene.materials.len(),
             Item::Light(index) => index < scene.lights.len(),

@@ -20,6 +20,8 @@ pub(crate) struct Document {
     path: Option<PathBuf>,
     /// The scene's file as it was opened or saved last.
     stamp: Option<Stamp>,
+    /// Whether another program has deleted the scene's file.
+    is_lost: bool,
     /// The item that the panels and the canvas show.
     pub(crate) selection: Selection,
     /// Which control points move together. The scene file does not hold it.
@@ -41,6 +43,7 @@ impl Document {
             file,
             path,
             stamp,
+            is_lost: false,
             selection,
             coupling: Coupling::default(),
             history: History::default(),
@@ -92,9 +95,9 @@ impl Document {
         present.is_some() && present != self.stamp
     }
 
-    /// Whether the scene differs from its saved state.
+    /// Whether the scene differs from its saved state, or its file is gone.
     pub(crate) fn is_dirty(&self) -> bool {
-        self.saved.as_ref().is_none_or(|saved| !Arc::ptr_eq(&self.file, saved) && self.file != *saved)
+        self.is_lost || self.saved.as_ref().is_none_or(|saved| !Arc::ptr_eq(&self.file, saved) && self.file != *saved)
     }
 
     /// The file's name for the title bar, after `*` while changes are unsaved.
@@ -107,7 +110,7 @@ impl Document {
         format!("{}{name}", if self.is_dirty() { "*" } else { "" })
     }
 
-    /// Changes the scene, moves the control points that follow moved ones, and selects an added item, or the camera after a
+    /// Changes the scene, moves the control points that follow moved ones, and selects an added item, or nothing after a
     /// removal. Edits with one key within one gesture make one undo step.
     pub(crate) fn edit(&mut self, edit: Edit) {
         let (key, selects) = (edit.key(), edit.selects(&self.file.scene));
@@ -186,12 +189,22 @@ impl Document {
         self.file = Arc::new(file);
         self.saved = Some(Arc::clone(&self.file));
         self.selection = std::mem::take(&mut self.selection).within(&self.file.scene);
-        self.stamp = Some(stamp);
+        self.has_file(Some(stamp));
     }
 
     /// Keeps the present scene, although another program has written its file with this stamp.
     pub(crate) fn keep_over(&mut self, stamp: Stamp) {
-        self.stamp = Some(stamp);
+        self.has_file(Some(stamp));
+    }
+
+    /// Keeps the present scene as unsaved: another program has deleted its file.
+    pub(crate) fn lose_file(&mut self) {
+        self.is_lost = true;
+    }
+
+    fn has_file(&mut self, stamp: Option<Stamp>) {
+        self.stamp = stamp;
+        self.is_lost = false;
     }
 
     /// Whether the scene's file last held this scene.
@@ -201,7 +214,7 @@ impl Document {
 
     /// Takes `saved` as the present scene: it was just written to `path`, and its file paths are relative to there.
     pub(crate) fn saved_as(&mut self, path: PathBuf, saved: SceneFile) {
-        self.stamp = Stamp::of(&path);
+        self.has_file(Stamp::of(&path));
         self.path = Some(path);
         self.file = Arc::new(saved);
         self.saved = Some(Arc::clone(&self.file));

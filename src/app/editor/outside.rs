@@ -20,7 +20,12 @@ impl Editor {
         }
     }
 
-    fn follow(&mut self, OutsideChange { scene, others }: OutsideChange) {
+    fn follow(&mut self, OutsideChange { scene, others, removed }: OutsideChange) {
+        if let Some(path) = removed.filter(|path| self.document.path() == Some(path)) {
+            self.document.lose_file();
+            let name = file_name(&path);
+            self.toasts.warning(format!("Another program has deleted or moved {name}. Save the scene to keep it."));
+        }
         match scene {
             Some((path, _, Err(error))) if self.document.path() == Some(&path) => {
                 // The first line names the place of the first mistake.

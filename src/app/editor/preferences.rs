@@ -1,7 +1,8 @@
 //! Applies and remembers the looks of the window.
 
 use super::state::Editor;
-use crate::app::keeping::{Preferences, WindowPlace};
+use crate::app::canvas::{Analysis, Shading};
+use crate::app::keeping::{Preferences, ShadingName, WindowPlace};
 use egui::{Context, ThemePreference, ViewportInfo};
 use std::time::Instant;
 
@@ -13,6 +14,12 @@ impl Editor {
         self.show_history = preferences.show_history;
         self.show_hint = preferences.show_hint;
         self.canvas.show_handles = preferences.show_handles;
+        self.canvas.sight.x_ray = preferences.x_ray;
+        self.canvas.grasp.falloff.on = preferences.soft_selection;
+        self.canvas.grasp.grid = preferences.grid;
+        self.canvas.matches_window = preferences.match_window;
+        self.canvas.analysis.analysis =
+            Analysis { isolines: preferences.isolines, shading: shading(preferences.shading) };
         self.rendering.set_target(Some(preferences.target_error).filter(|error| *error > 0.0));
         self.panel_sizes = preferences.panels;
         self.window_place = preferences.window;
@@ -27,6 +34,12 @@ impl Editor {
         let preferences = Preferences {
             show_panels: self.show_panels,
             show_handles: self.canvas.show_handles,
+            x_ray: self.canvas.sight.x_ray,
+            soft_selection: self.canvas.grasp.falloff.on,
+            match_window: self.canvas.matches_window,
+            grid: self.canvas.grasp.grid,
+            isolines: self.canvas.analysis.analysis.isolines,
+            shading: shading_name(self.canvas.analysis.analysis.shading),
             show_history: self.show_history,
             show_hint: self.show_hint,
             target_error: self.rendering.target().unwrap_or(0.0),
@@ -52,5 +65,23 @@ impl Editor {
             corner: before.map_or(window.outer_rect.map(|outer| outer.min.into()), |place| place.corner),
             maximized,
         });
+    }
+}
+
+fn shading(name: ShadingName) -> Option<Shading> {
+    match name {
+        ShadingName::None => None,
+        ShadingName::MeanCurvature => Some(Shading::MeanCurvature),
+        ShadingName::GaussianCurvature => Some(Shading::GaussianCurvature),
+        ShadingName::Zebra => Some(Shading::Zebra),
+    }
+}
+
+fn shading_name(shading: Option<Shading>) -> ShadingName {
+    match shading {
+        None => ShadingName::None,
+        Some(Shading::MeanCurvature) => ShadingName::MeanCurvature,
+        Some(Shading::GaussianCurvature) => ShadingName::GaussianCurvature,
+        Some(Shading::Zebra) => ShadingName::Zebra,
     }
 }

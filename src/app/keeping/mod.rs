@@ -29,7 +29,7 @@ pub(crate) use autosave::Autosave;
 pub(crate) use autosave::Pace;
 pub(crate) use folders::Folders;
 pub(crate) use left_over::{LeftOverRow, LeftOvers};
-pub(crate) use preferences::{LastFolders, PanelSizes, Preferences, WindowPlace};
+pub(crate) use preferences::{LastFolders, PanelSizes, Preferences, ShadingName, WindowPlace};
 pub(crate) use preferences_file::{LoadedPreferences, PreferencesFile};
 pub(crate) use recent::RecentFiles;
 pub(crate) use watch::{OutsideChange, Watch};

@@ -1,6 +1,7 @@
 //! What the window remembers of its looks.
 
 use crate::app::commands::Purpose;
+use crate::scene::{MAX_LENGTH, MIN_LENGTH};
 use egui::{Rect, ThemePreference, Vec2, vec2};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -12,6 +13,16 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Preferences {
     pub(crate) show_panels: bool,
     pub(crate) show_handles: bool,
+    /// Whether handles are shown as if no object hid them.
+    pub(crate) x_ray: bool,
+    pub(crate) soft_selection: bool,
+    /// Whether the picture has the size of the canvas.
+    pub(crate) match_window: bool,
+    /// The step of the snapping grid, scene units; `None` for the automatic step.
+    pub(crate) grid: Option<f64>,
+    /// Whether lines of constant u and v are drawn over the selected surface.
+    pub(crate) isolines: bool,
+    pub(crate) shading: ShadingName,
     pub(crate) show_history: bool,
     /// Whether to show the hint for a first start.
     pub(crate) show_hint: bool,
@@ -29,6 +40,12 @@ impl Default for Preferences {
         Self {
             show_panels: true,
             show_handles: true,
+            x_ray: false,
+            soft_selection: false,
+            match_window: false,
+            grid: None,
+            isolines: false,
+            shading: ShadingName::default(),
             show_history: false,
             show_hint: true,
             target_error: 0.001,
@@ -47,6 +64,7 @@ impl Preferences {
         if !(0.0..=1.0).contains(&self.target_error) {
             self.target_error = usual.target_error;
         }
+        self.grid = self.grid.filter(|step| (MIN_LENGTH..=MAX_LENGTH).contains(step));
         let PanelSizes { progress, scene, outline } = &mut self.panels;
         for (size, usual) in
             [(progress, usual.panels.progress), (scene, usual.panels.scene), (outline, usual.panels.outline)]
@@ -88,6 +106,17 @@ impl From<ThemeName> for ThemePreference {
             ThemeName::Light => Self::Light,
         }
     }
+}
+
+/// The colours over the selected surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ShadingName {
+    #[default]
+    None,
+    MeanCurvature,
+    GaussianCurvature,
+    Zebra,
 }
 
 /// The sizes that the user gave the panels, screen points.
@@ -186,12 +215,21 @@ mod tests {
     fn impossible_numbers_become_usual_ones() {
         let window = |width, x| Some(WindowPlace { width, height: 500.0, corner: Some([x, 0.0]), maximized: false });
         let panels = PanelSizes { progress: f32::NAN, scene: 400.0, outline: -3.0 };
-        let odd = Preferences { target_error: -1.0, panels, window: window(f32::INFINITY, 0.0), ..Default::default() };
+        let odd = Preferences {
+            target_error: -1.0,
+            grid: Some(f64::NAN),
+            panels,
+            window: window(f32::INFINITY, 0.0),
+            ..Default::default()
+        };
         let usual = PanelSizes { scene: 400.0, ..PanelSizes::default() };
         assert_eq!(odd.within_limits(), Preferences { panels: usual, ..Default::default() });
         let far = Preferences { window: window(800.0, 1e30), ..Default::default() };
         assert_eq!(far.within_limits().window, None);
         let fine = Preferences { window: window(800.0, -50.0), ..Default::default() };
         assert_eq!(fine.clone().within_limits(), fine);
+        for (grid, expected) in [(0.25, Some(0.25)), (0.0, None), (-1.0, None), (1e300, None)] {
+            assert_eq!(Preferences { grid: Some(grid), ..Default::default() }.within_limits().grid, expected);
+        }
     }
 }

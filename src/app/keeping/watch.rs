@@ -42,6 +42,8 @@ pub(crate) struct OutsideChange {
     pub(crate) scene: Option<(PathBuf, Option<Stamp>, Result<SceneFile, String>)>,
     /// The changed textures and patches.
     pub(crate) others: Vec<PathBuf>,
+    /// The scene's file, if it is gone.
+    pub(crate) removed: Option<PathBuf>,
 }
 
 /// Looks at the files of a document on a thread of its own, which only wakes the window for a change.
@@ -141,6 +143,9 @@ impl Looker {
 
     /// The change since the last look. A file counts as changed once two looks see it alike: before, a program may still write it.
     fn look(&mut self, now: Instant) -> Option<OutsideChange> {
+        if let removed @ Some(_) = self.removed_scene() {
+            return Some(OutsideChange { scene: None, others: Vec::new(), removed });
+        }
         let mut changed = Vec::new();
         for (path, seen) in &mut self.files {
             let present = Stamp::of(path);
@@ -167,7 +172,18 @@ impl Looker {
             }
         }
         changed.retain(|path| self.watched.others.contains(path));
-        Some(OutsideChange { scene, others: changed })
+        Some(OutsideChange { scene, others: changed, removed: None })
+    }
+
+    /// The scene's file, once when two looks miss it: a program may delete a file just before it writes the file anew.
+    fn removed_scene(&mut self) -> Option<PathBuf> {
+        let (path, _) = self.watched.scene.as_ref()?;
+        let seen = self.files.get_mut(path)?;
+        let is_gone = seen.known.is_some() && seen.last.is_none() && Stamp::of(path).is_none();
+        is_gone.then(|| {
+            seen.known = None;
+            path.clone()
+        })
     }
 }
 
@@ -201,7 +217,12 @@ mod tests {
         assert_eq!(opened(looker.look(now)).unwrap().unwrap(), SceneFile::open(&path).unwrap());
         assert!(looker.look(now).is_none(), "told once");
         fs::remove_file(&path).unwrap();
-        assert!(looker.look(now).is_none() && looker.look(now).is_none(), "a missing file is no change");
+        assert!(looker.look(now).is_none(), "it may be written anew");
+        assert_eq!(looker.look(now).and_then(|change| change.removed), Some(path.clone()));
+        assert!(looker.look(now).is_none(), "told once");
+        fs::write(&path, &changed).unwrap();
+        assert!(looker.look(now).is_none());
+        assert!(opened(looker.look(now)).is_some(), "it is back");
     }
 
     #[test]

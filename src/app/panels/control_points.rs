@@ -92,8 +92,9 @@ fn position_ui(ui: &mut Ui, document: &Document, object: usize, bezier: &Bezier,
     };
     let mut placed = center;
     let title = ui.strong(title);
-    let row =
-        ui.horizontal(|ui| vector(ui, "Position", &mut placed, &Number::any(length_speed(&document.scene().camera))));
+    let row = ui.horizontal(|ui| {
+        vector(ui, "Position", &mut placed, &Number::coordinate(length_speed(&document.scene().camera)))
+    });
     if is_new_selection(ui, document) {
         title.union(row.response).scroll_to_me(None);
     }

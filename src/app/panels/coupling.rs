@@ -37,8 +37,8 @@ fn mirror_ui(ui: &mut Ui, document: &Document, bezier: &Bezier, coupling: &mut C
     }
     if let Some(mirror) = &mut coupling.mirror {
         ui.label("at");
-        let spec =
-            Number::any(length_speed(&document.scene().camera)).tip("The plane's coordinate, in the object's axes");
+        let spec = Number::coordinate(length_speed(&document.scene().camera))
+            .tip("The plane's coordinate, in the object's axes");
         number(ui, "Mirror plane", &mut mirror.at, &spec);
     }
 }

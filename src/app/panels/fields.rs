@@ -18,6 +18,8 @@ const LABEL_WIDTH: f32 = 76.0;
 const SWATCH_WIDTH: f32 = 24.0;
 /// Digits that fit in a number field, before and after the decimal point together.
 const DIGITS: usize = 5;
+/// Decimals that a length has at least.
+const LENGTH_DECIMALS: usize = 3;
 
 /// The range, unit and dragging speed of a number field.
 #[derive(Clone, Debug)]
@@ -27,13 +29,15 @@ pub(super) struct Number {
     /// Change per screen point of dragging.
     pub(super) speed: f64,
     pub(super) range: RangeInclusive<f64>,
+    /// Least decimals; `None` for those of the speed.
+    pub(super) decimals: Option<usize>,
     pub(super) tip: &'static str,
 }
 
 impl Number {
     /// A number of any sign, up to the largest coordinate of a valid scene.
     pub(super) fn any(speed: f64) -> Self {
-        Self { unit: "", speed, range: -MAX_LENGTH..=MAX_LENGTH, tip: "" }
+        Self { unit: "", speed, range: -MAX_LENGTH..=MAX_LENGTH, decimals: None, tip: "" }
     }
 
     /// A number that cannot be negative.
@@ -41,9 +45,14 @@ impl Number {
         Self::any(speed).within(0.0..=MAX_LENGTH)
     }
 
+    /// A coordinate, scene units. Its decimals do not follow the speed, which depends on the camera's distance.
+    pub(super) fn coordinate(speed: f64) -> Self {
+        Self { decimals: Some(LENGTH_DECIMALS), ..Self::any(speed) }
+    }
+
     /// A length above 0, scene units.
     pub(super) fn length(speed: f64) -> Self {
-        Self::any(speed).within(MIN_LENGTH..=MAX_LENGTH)
+        Self::coordinate(speed).within(MIN_LENGTH..=MAX_LENGTH)
     }
 
     /// A scale factor of either sign.
@@ -97,11 +106,10 @@ pub(super) fn number(ui: &mut Ui, name: &str, value: &mut f64, spec: &Number) {
             .range(spec.range.clone())
             // A number of the scene file stays unchanged until the user edits it.
             .clamp_existing_to_range(false)
-            .custom_formatter(
-                |value, decimals| {
-                    if typing.is_active { value.to_string() } else { short(value, *decimals.start()) }
-                },
-            )
+            .custom_formatter(|value, decimals| {
+                let least = spec.decimals.unwrap_or(*decimals.start());
+                if typing.is_active { value.to_string() } else { short(value, least) }
+            })
             .custom_parser(|text| typing.read(text))
             .update_while_editing(false);
         let response = ui.add(field.clip_text(true)).accessible_name(name);

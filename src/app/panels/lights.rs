@@ -24,7 +24,7 @@ pub(super) fn light_ui(ui: &mut Ui, document: &Document, index: usize, light: &L
 }
 
 fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, name: &str, speed: f64) {
-    let (length, component) = (Number::any(speed), Number::any(0.01));
+    let (length, component) = (Number::coordinate(speed), Number::any(0.01));
     match emitter {
         Emitter::Point { position, intensity } => {
             vector_row(ui, "Position", position, &length);

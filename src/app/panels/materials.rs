@@ -94,7 +94,8 @@ fn surface_color_ui(ui: &mut Ui, name: &str, color: &mut Color, scene: &Scene) {
     }
     ui.label("");
     let mut textured = matches!(color, Color::Texture(_));
-    if ui.checkbox(&mut textured, format!("{name} from a texture")).changed() {
+    let field = ui.checkbox(&mut textured, format!("{name} from a texture"));
+    if field.on_hover_text("Takes the colour from an image of the list of textures").changed() {
         *color = match (textured, scene.textures.first()) {
             (true, Some(first)) => Color::Texture(TextureUse { texture: first.name.clone(), scale: DVec2::ONE }),
             _ => Color::Constant(Rgb::splat(0.5)),

@@ -32,19 +32,19 @@ pub(super) fn object_ui(
         commands.push(AppCommand::Edit(Edit::Object(index, edited)));
     }
     if let Shape::Bezier(bezier) = &object.shape {
-        CollapsingHeader::new("Control points").default_open(true).show(ui, |ui| {
+        let points = CollapsingHeader::new("Control points").default_open(true).show(ui, |ui| {
             control_points_ui(ui, document, index, bezier, commands);
             coupling_ui(ui, document, bezier, commands);
         });
+        points.header_response.on_hover_text("The points that shape the patches, and which of them move together");
     }
     let material = document.scene().materials.iter().position(|material| material.name == object.material);
     if let Some(index) = material {
-        CollapsingHeader::new(format!("Material: {}", object.material)).id_salt("material").default_open(true).show(
-            ui,
-            |ui| {
-                material_ui(ui, document, index, &document.scene().materials[index], Naming::Fixed, commands);
-            },
-        );
+        let header = CollapsingHeader::new(format!("Material: {}", object.material)).id_salt("material");
+        let fold = header.default_open(true).show(ui, |ui| {
+            material_ui(ui, document, index, &document.scene().materials[index], Naming::Fixed, commands);
+        });
+        fold.header_response.on_hover_text("How the surface scatters light; all objects of the material change");
     }
 }
 
@@ -61,7 +61,7 @@ fn body_ui(ui: &mut Ui, scene: &Scene, index: usize, object: &mut Object) {
 }
 
 fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {
-    let length = Number::any(speed);
+    let length = Number::coordinate(speed);
     match shape {
         Shape::Quad { corner, edge_u, edge_v } => {
             vector_row(ui, "Corner", corner, &length);
@@ -98,7 +98,7 @@ fn u_axis_ui(ui: &mut Ui, u_axis: &mut Option<DVec3>) {
 }
 
 fn transform_ui(ui: &mut Ui, transform: &mut Transform, speed: f64) {
-    vector_row(ui, "Translate", &mut transform.translate, &Number::any(speed));
+    vector_row(ui, "Translate", &mut transform.translate, &Number::coordinate(speed));
     vector_row(ui, "Rotate", &mut transform.rotate, &Number::any(0.5).unit("°"));
     vector_row(ui, "Scale", &mut transform.scale, &Number::factor(0.005));
 }

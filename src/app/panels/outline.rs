@@ -14,16 +14,45 @@ struct Section {
     /// Whether the section starts open.
     open: bool,
     item: fn(usize) -> Item,
+    /// What the section lists.
+    tip: &'static str,
+    /// What the button "+ Add" does.
+    add_tip: &'static str,
 }
 
-const OBJECTS: Section = Section { title: "Objects", open: true, item: Item::Object };
-const LIGHTS: Section = Section { title: "Lights", open: true, item: Item::Light };
-const MATERIALS: Section = Section { title: "Materials", open: false, item: Item::Material };
-const TEXTURES: Section = Section { title: "Textures", open: false, item: Item::Texture };
+const OBJECTS: Section = Section {
+    title: "Objects",
+    open: true,
+    item: Item::Object,
+    tip: "The surfaces of the scene",
+    add_tip: "Add an object where the camera looks",
+};
+const LIGHTS: Section = Section {
+    title: "Lights",
+    open: true,
+    item: Item::Light,
+    tip: "What shines in the scene",
+    add_tip: "Add a light where the camera looks",
+};
+const MATERIALS: Section = Section {
+    title: "Materials",
+    open: false,
+    item: Item::Material,
+    tip: "How surfaces scatter light",
+    add_tip: "Add a material, which objects can then have",
+};
+const TEXTURES: Section = Section {
+    title: "Textures",
+    open: false,
+    item: Item::Texture,
+    tip: "Images that materials use",
+    add_tip: "Add an image, which materials can then use",
+};
 
 /// What a row shows of an item.
 struct Label<'a> {
     name: &'a str,
+    /// The kind of the item, or what it is.
     kind: &'static str,
     icon: Icon,
 }
@@ -31,8 +60,18 @@ struct Label<'a> {
 /// The scene as a list; a click selects an item.
 pub(crate) fn outline_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     ui.spacing_mut().item_spacing.y = SPACING;
-    row_ui(ui, document, Item::Camera, &Label { name: "Camera", kind: "", icon: Icon::Camera }, commands);
-    let settings = Label { name: "Picture and rendering", kind: "", icon: Icon::Settings };
+    row_ui(
+        ui,
+        document,
+        Item::Camera,
+        &Label { name: "Camera", kind: "Where the scene is seen from", icon: Icon::Camera },
+        commands,
+    );
+    let settings = Label {
+        name: "Picture and rendering",
+        kind: "Size of the picture, exposure, bounces, background",
+        icon: Icon::Settings,
+    };
     row_ui(ui, document, Item::Settings, &settings, commands);
     objects_ui(ui, document, commands);
     lights_ui(ui, document, commands);
@@ -116,16 +155,16 @@ fn section_ui<'a>(
 ) {
     let header = format!("{} ({})", section.title, entries.len());
     let fold = CollapsingHeader::new(header).id_salt(section.title).default_open(section.open);
-    let header = fold.show(ui, |ui| {
+    let fold = fold.show(ui, |ui| {
         for (index, label) in entries.enumerate() {
             row_ui(ui, document, (section.item)(index), &label, commands);
         }
     });
     // The button stands at the right end of the header's row.
-    let row = header.header_response.rect.with_max_x(ui.max_rect().right());
+    let row = fold.header_response.on_hover_text(section.tip).rect.with_max_x(ui.max_rect().right());
     let builder = UiBuilder::new().max_rect(row).layout(Layout::right_to_left(Align::Center));
     let add = ui.new_child(builder).menu_button("+ Add", |ui| add_ui(ui, commands)).response;
-    add.accessible_name(format!("Add to {}", section.title));
+    add.on_hover_text(section.add_tip).accessible_name(format!("Add to {}", section.title));
 }
 
 /// The row of an item: a click selects it, a right click opens its menu.
@@ -156,5 +195,5 @@ fn label_ui(ui: &mut Ui, selected: bool, label: &Label<'_>) -> Response {
     if let Some(square) = button.rect(icon) {
         label.icon.paint(ui.painter(), square, color);
     }
-    if label.kind.is_empty() { button.response } else { button.response.on_hover_text(label.kind) }
+    button.response.on_hover_text(label.kind)
 }

@@ -37,13 +37,15 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
     if !frame.plan.warnings.is_empty() {
         warnings_ui(ui, &frame.plan, &rendering.renames(document.scene()));
     }
-    CollapsingHeader::new("Statistics").default_open(false).show(ui, |ui| {
+    let statistics = CollapsingHeader::new("Statistics").default_open(false).show(ui, |ui| {
         counts_ui(ui, frame.iteration, &frame.stats);
         ui.add_space(4.0);
         ui.weak("Time per iteration");
         passes_ui(ui, &frame.stats);
     });
-    CollapsingHeader::new("Plan").default_open(false).show(ui, |ui| plan_ui(ui, &frame.plan));
+    statistics.header_response.on_hover_text("Counts of paths and rays, and the time of each pass");
+    let plan = CollapsingHeader::new("Plan").default_open(false).show(ui, |ui| plan_ui(ui, &frame.plan));
+    plan.header_response.on_hover_text("What the renderer does for this scene, and why");
 }
 
 fn display_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {

@@ -9,6 +9,9 @@ use egui::Ui;
 pub(crate) fn properties_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let scene = document.scene();
     match document.selection.item {
+        Item::Nothing => {
+            ui.weak("Nothing is selected. Click an item above or a handle in the picture.");
+        }
         Item::Camera => settings::camera_ui(ui, document, commands),
         Item::Settings => settings::settings_ui(ui, document, commands),
         Item::Object(index) => {

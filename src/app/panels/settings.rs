@@ -11,7 +11,7 @@ use egui::{ComboBox, Slider, Ui};
 pub(super) fn camera_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let camera = document.scene().camera;
     let mut edited = camera;
-    let length = Number::any(length_speed(&document.scene().camera));
+    let length = Number::coordinate(length_speed(&document.scene().camera));
     ui.strong("Camera");
     rows(ui, "camera", |ui| {
         vector_row(ui, "Position", &mut edited.position, &length);

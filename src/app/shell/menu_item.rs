@@ -1,7 +1,7 @@
 //! The entries of menus: an action with its shortcut and its tooltip.
 
 use crate::app::commands::{Action, AppCommand};
-use egui::{Button, Response, Ui};
+use egui::{Atom, Button, Checkbox, Response, RichText, Ui};
 
 /// An entry that performs an action.
 pub(super) fn item_ui(ui: &mut Ui, action: Action, label: &str, enabled: bool, commands: &mut Vec<AppCommand>) {
@@ -14,8 +14,8 @@ pub(super) fn item_ui(ui: &mut Ui, action: Action, label: &str, enabled: bool, c
 
 /// An entry with a check mark, whose action toggles it.
 pub(super) fn check_ui(ui: &mut Ui, action: Action, mut on: bool, commands: &mut Vec<AppCommand>) {
-    let text = format!("{}  ({})", action.label(), action.shortcut(ui.ctx()));
-    let response = ui.checkbox(&mut on, text);
+    let shortcut = RichText::new(action.shortcut(ui.ctx())).weak();
+    let response = ui.add(Checkbox::new(&mut on, (action.label(), Atom::grow(), shortcut)));
     if explained(response, action).clicked() {
         commands.push(AppCommand::Do(action));
     }

@@ -20,5 +20,5 @@ mod legend;
 mod raster;
 mod stripes;
 
-pub(crate) use choice::Analysis;
+pub(crate) use choice::{Analysis, Shading};
 pub(crate) use layer::AnalysisLayer;

@@ -25,6 +25,17 @@ pub(super) fn drag(ui: &mut Ui, button: PointerButton, modifiers: Modifiers, fro
     ui.run_steps(1);
 }
 
+/// Begins an orbit from `at` by 40 points to the right; the button and Alt stay down.
+pub(super) fn begin_orbit(ui: &mut Ui, at: Pos2) {
+    ui.event(Event::ModifiersChanged(Modifiers::ALT));
+    ui.hover_at(at);
+    ui.run_steps(2);
+    ui.drag_at(at);
+    ui.run_steps(1);
+    ui.hover_at(at + vec2(40.0, 0.0));
+    ui.run_steps(2);
+}
+
 fn turn_wheel(ui: &mut Ui, modifiers: Modifiers, lines: f32) {
     ui.event(Event::ModifiersChanged(modifiers));
     ui.event(Event::MouseWheel {
@@ -130,13 +141,7 @@ fn an_alt_drag_with_the_right_button_and_the_wheel_dolly_towards_the_pointer() {
 fn escape_reverts_an_orbit() {
     let mut ui = open("report");
     let (before, at) = (scene(&ui).clone(), on_screen(&ui, camera(&ui).target));
-    ui.event(Event::ModifiersChanged(Modifiers::ALT));
-    ui.hover_at(at);
-    ui.run_steps(2);
-    ui.drag_at(at);
-    ui.run_steps(1);
-    ui.hover_at(at + vec2(40.0, 0.0));
-    ui.run_steps(2);
+    begin_orbit(&mut ui, at);
     assert_ne!(*scene(&ui), before);
     ui.key_press(Key::Escape);
     ui.run_steps(2);

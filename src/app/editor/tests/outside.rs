@@ -77,6 +77,20 @@ fn a_half_written_file_gives_a_notice_and_is_read_once_it_is_complete() {
 }
 
 #[test]
+fn a_deleted_file_leaves_an_unsaved_scene_with_a_message() {
+    let folder = folder();
+    let (mut ui, path) = open_in(folder.path());
+    let before = scene(&ui).clone();
+    fs::remove_file(&path).unwrap();
+    wait_until(&mut ui, "the message", |ui| ui.state().toasts.len() == 1);
+    assert!(ui.state().document.is_dirty());
+    assert_eq!((scene(&ui), &ui.state().dialog), (&before, &None));
+    press(&mut ui, Key::S);
+    assert_eq!(SceneFile::open(&path).unwrap().scene, before);
+    assert!(!ui.state().document.is_dirty());
+}
+
+#[test]
 fn own_saves_are_no_changes_of_others() {
     let folder = folder();
     let (mut ui, path) = open_in(folder.path());

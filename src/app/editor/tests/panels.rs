@@ -1,6 +1,7 @@
 use super::*;
 use crate::app::document::{Item, Selection};
 use crate::scene::{Color, Emitter, MaterialModel, Shape, built_in_scenes};
+use egui_kittest::kittest::NodeT;
 
 #[test]
 fn a_typed_number_changes_the_scene_and_undo_reverts_it() {
@@ -153,6 +154,52 @@ fn every_item_of_every_scene_has_its_panel_with_named_fields() {
     }
 }
 
+/// The controls of the side panels that have a tooltip of their own.
+fn panel_controls(ui: &Ui) -> Vec<(String, egui::Pos2)> {
+    let roles = [
+        Role::Button,
+        Role::CheckBox,
+        Role::RadioButton,
+        Role::ComboBox,
+        Role::SpinButton,
+        Role::TextInput,
+        Role::Slider,
+    ];
+    let canvas = ui.state().canvas.transform.unwrap().canvas;
+    let bars = egui::Rect::from_x_y_ranges(canvas.x_range(), f32::NEG_INFINITY..=f32::INFINITY);
+    let seen = ui.ctx.content_rect().shrink(30.0);
+    let nodes = ui.query_all_by(|node| roles.contains(&node.role()));
+    let found = nodes.map(|node| (node.accesskit_node().label().unwrap_or_default(), node.rect().center()));
+    found.filter(|(_, at)| seen.contains(*at) && !bars.contains(*at)).collect()
+}
+
+/// Texts on the screen with the pointer at rest at a point.
+fn texts_under(ui: &mut Ui, at: egui::Pos2) -> usize {
+    ui.hover_at(at);
+    ui.run_steps(10);
+    ui.query_all_by_role(Role::Label).count()
+}
+
+#[test]
+fn every_control_of_the_side_panels_has_a_tooltip() {
+    let mut ui = open("report");
+    receive(&mut ui, frame(0, false, 8));
+    ui.set_size([1400.0, 1000.0].into());
+    ui.run_steps(4);
+    let lamp = Item::Light(0);
+    for item in
+        [ui.state().document.selection.item, lamp, Item::Material(0), Item::Camera, Item::Settings, Item::Nothing]
+    {
+        select(&mut ui, item);
+        let alone = texts_under(&mut ui, egui::pos2(700.0, 990.0));
+        let controls = panel_controls(&ui);
+        assert!(controls.len() > 10, "{controls:?}");
+        for (label, at) in controls {
+            assert!(texts_under(&mut ui, at) > alone, "\"{label}\" at {at} has no tooltip, showing {item:?}");
+        }
+    }
+}
+
 #[test]
 fn a_texture_can_replace_a_colour() {
     let mut ui = open("report");
@@ -204,7 +251,8 @@ fn delete_removes_no_object_for_a_selected_control_point_and_no_second_item() {
         ui.run_steps(2);
     }
     assert_eq!(scene(&ui).objects, before.objects[1..], "only the selected object is deleted");
-    assert_eq!(ui.state().document.selection.item, Item::Camera);
+    assert_eq!(ui.state().document.selection.item, Item::Nothing);
+    assert!(ui.query_by_label_contains("Nothing is selected").is_some());
 }
 
 #[test]

@@ -1,4 +1,5 @@
 use super::*;
+use crate::app::canvas::{Analysis, Shading};
 use crate::app::commands::{Action, AppCommand, Next};
 use crate::app::keeping::{Folders, LoadedPreferences};
 use crate::scene::Location;
@@ -46,6 +47,25 @@ fn the_next_window_has_the_looks_of_the_window_before() {
     drop(second);
     let third = open_in(home.path());
     assert_eq!((third.state().rendering.target(), third.state().show_panels), (Some(0.02), false));
+}
+
+#[test]
+fn the_next_window_has_the_aids_of_the_window_before() {
+    let home = folder();
+    let mut first = open_in(home.path());
+    let before = first.state().canvas.grasp.falloff.on;
+    for action in
+        [Action::ToggleXRay, Action::ToggleFalloff, Action::MatchWindow, Action::ToggleIsolines, Action::ToggleZebra]
+    {
+        apply(&mut first, AppCommand::Do(action));
+    }
+    apply(&mut first, AppCommand::Grid(Some(0.25)));
+    drop(first);
+    let second = open_in(home.path());
+    let canvas = &second.state().canvas;
+    assert!(canvas.sight.x_ray && canvas.grasp.falloff.on && canvas.matches_window && !before);
+    assert_eq!(canvas.analysis.analysis, Analysis { isolines: true, shading: Some(Shading::Zebra) });
+    assert_eq!(canvas.grasp.grid, Some(0.25));
 }
 
 #[test]

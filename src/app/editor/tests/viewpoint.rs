@@ -1,9 +1,9 @@
-use super::navigation::{camera, drag, on_screen};
+use super::navigation::{begin_orbit, camera, drag, on_screen};
 use super::*;
 use crate::app::canvas::Projection;
 use crate::app::commands::{AppCommand, Next};
 use crate::app::document::{Handle, PointIndex};
-use egui::{Event, PointerButton, vec2};
+use egui::{PointerButton, vec2};
 
 const POINT: &str = "Control point P[1][2]";
 
@@ -67,13 +67,7 @@ fn escape_reverts_a_look() {
     ui.key_press(Key::L);
     ui.run_steps(3);
     let (own, at) = (camera(&ui), on_screen(&ui, camera(&ui).target));
-    ui.event(Event::ModifiersChanged(Modifiers::ALT));
-    ui.hover_at(at);
-    ui.run_steps(2);
-    ui.drag_at(at);
-    ui.run_steps(1);
-    ui.hover_at(at + vec2(40.0, 0.0));
-    ui.run_steps(2);
+    begin_orbit(&mut ui, at);
     assert_ne!(camera(&ui), own);
     ui.key_press(Key::Escape);
     ui.run_steps(2);
