@@ -1,6 +1,7 @@
 //! Every request of the user. The editor's `apply` alone carries requests out.
 
 use super::action::Action;
+use super::length_unit::LengthUnit;
 use super::purpose::Purpose;
 use crate::app::document::surface::Coupling;
 use crate::app::document::{Edit, NewItem, Selection};
@@ -60,6 +61,8 @@ pub(crate) enum AppCommand {
     ExportSurface(NonZeroUsize),
     /// Snap to a grid with this step, scene units; `None` for the automatic step.
     Grid(Option<f64>),
+    /// Name the unit of lengths.
+    LengthUnit(LengthUnit),
     /// Choose the light or the dark theme.
     Theme(ThemePreference),
 }

@@ -45,6 +45,7 @@ impl Editor {
             AppCommand::CloseHint => self.show_hint = false,
             AppCommand::ExportSurface(steps) => self.ask_for_surface_path(ctx, steps),
             AppCommand::Grid(step) => self.canvas.grasp.grid = step,
+            AppCommand::LengthUnit(unit) => self.length_unit = unit,
             AppCommand::Theme(theme) => ctx.set_theme(theme),
             AppCommand::Target(target) => self.rendering.set_target(target),
         }

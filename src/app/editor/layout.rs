@@ -82,6 +82,7 @@ impl Editor {
             falloff: canvas.grasp.falloff.on,
             grid: canvas.grasp.grid,
             panels: self.show_panels,
+            length_unit: self.length_unit,
             history: self.show_history,
         };
         Panel::top("menu").show(ui, |ui| {
@@ -127,7 +128,7 @@ impl Editor {
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(4.0);
-            properties_ui(ui, &self.document, commands);
+            properties_ui(ui, &self.document, self.length_unit, commands);
         });
     }
 

@@ -23,6 +23,7 @@ impl Editor {
         self.rendering.set_target(Some(preferences.target_error).filter(|error| *error > 0.0));
         self.panel_sizes = preferences.panels;
         self.window_place = preferences.window;
+        self.length_unit = preferences.length_unit;
         self.last_folders = preferences.folders;
     }
 
@@ -46,6 +47,7 @@ impl Editor {
             panels: self.panel_sizes,
             window: self.window_place,
             theme: ctx.options(|options| options.theme_preference).into(),
+            length_unit: self.length_unit,
             folders: self.last_folders.clone(),
         };
         self.preferences_file.update(ctx, preferences, Instant::now());

@@ -2,7 +2,7 @@
 
 use super::opened_scene::OpenedScene;
 use crate::app::canvas::Canvas;
-use crate::app::commands::Next;
+use crate::app::commands::{LengthUnit, Next};
 use crate::app::document::{Document, Stamp};
 use crate::app::files::{Chooser, Export};
 use crate::app::keeping::{
@@ -38,6 +38,7 @@ pub(crate) struct Editor {
     pub(crate) unreadable: Option<String>,
     pub(crate) preferences_file: PreferencesFile,
     pub(crate) last_folders: LastFolders,
+    pub(crate) length_unit: LengthUnit,
     pub(crate) panel_sizes: PanelSizes,
     /// The place of the window while it is not maximized; `None` where the desktop does not tell.
     pub(crate) window_place: Option<WindowPlace>,
@@ -79,6 +80,7 @@ impl Editor {
             unreadable: None,
             preferences_file: PreferencesFile::default(),
             last_folders: LastFolders::default(),
+            length_unit: LengthUnit::default(),
             panel_sizes: PanelSizes::default(),
             window_place: None,
             dialog: None,

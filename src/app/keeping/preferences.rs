@@ -1,6 +1,6 @@
 //! What the window remembers of its looks.
 
-use crate::app::commands::Purpose;
+use crate::app::commands::{LengthUnit, Purpose};
 use crate::scene::{MAX_LENGTH, MIN_LENGTH};
 use egui::{Rect, ThemePreference, Vec2, vec2};
 use serde::{Deserialize, Serialize};
@@ -32,6 +32,7 @@ pub(crate) struct Preferences {
     pub(crate) panels: PanelSizes,
     /// `None` before the first window.
     pub(crate) window: Option<WindowPlace>,
+    pub(crate) length_unit: LengthUnit,
     pub(crate) folders: LastFolders,
 }
 
@@ -52,6 +53,7 @@ impl Default for Preferences {
             theme: ThemeName::default(),
             panels: PanelSizes::default(),
             window: None,
+            length_unit: LengthUnit::default(),
             folders: LastFolders::default(),
         }
     }

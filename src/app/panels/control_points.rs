@@ -1,6 +1,7 @@
 //! The control points of a patch: a button for each, and the coordinates of the selected ones.
 
-use super::fields::{Number, count, length_speed, vector};
+use super::fields::{count, vector};
+use super::lengths::Lengths;
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, PointIndex, Selection};
 use crate::geometry::bezier::ControlNet;
@@ -14,6 +15,7 @@ pub(super) fn control_points_ui(
     document: &Document,
     object: usize,
     bezier: &Bezier,
+    lengths: &Lengths,
     commands: &mut Vec<AppCommand>,
 ) {
     let Some(net) = bezier.patches.get(document.selection.patch) else { return };
@@ -21,7 +23,7 @@ pub(super) fn control_points_ui(
         patch_ui(ui, document, bezier.patches.len(), commands);
     }
     net_ui(ui, document, net, commands);
-    position_ui(ui, document, object, bezier, commands);
+    position_ui(ui, document, object, bezier, lengths, commands);
     if bezier.transform != Transform::default() {
         ui.weak("Coordinates before the object's transform; handles move along the axes of the world");
     }
@@ -78,7 +80,14 @@ fn point_name(point: PointIndex) -> String {
 }
 
 /// The coordinates of the selected control point, or of the centre of several: a typed number moves all.
-fn position_ui(ui: &mut Ui, document: &Document, object: usize, bezier: &Bezier, commands: &mut Vec<AppCommand>) {
+fn position_ui(
+    ui: &mut Ui,
+    document: &Document,
+    object: usize,
+    bezier: &Bezier,
+    lengths: &Lengths,
+    commands: &mut Vec<AppCommand>,
+) {
     let points = positions(document, bezier);
     let Some((first, position)) = points.first() else {
         ui.weak("Select control points here or in the picture to edit their coordinates");
@@ -92,9 +101,7 @@ fn position_ui(ui: &mut Ui, document: &Document, object: usize, bezier: &Bezier,
     };
     let mut placed = center;
     let title = ui.strong(title);
-    let row = ui.horizontal(|ui| {
-        vector(ui, "Position", &mut placed, &Number::coordinate(length_speed(&document.scene().camera)))
-    });
+    let row = ui.horizontal(|ui| vector(ui, "Position", &mut placed, &lengths.coordinate()));
     if is_new_selection(ui, document) {
         title.union(row.response).scroll_to_me(None);
     }

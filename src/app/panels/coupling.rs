@@ -1,6 +1,7 @@
 //! Which control points move together: the tangents across seams, and the mirror symmetry.
 
-use super::fields::{Number, length_speed, number};
+use super::fields::number;
+use super::lengths::Lengths;
 use crate::app::commands::{Action, AppCommand};
 use crate::app::document::Document;
 use crate::app::document::surface::{Coupling, Mirror};
@@ -8,11 +9,17 @@ use crate::scene::Bezier;
 use egui::Ui;
 
 /// The tangents across seams, and the plane of symmetry. The settings belong to the window: the scene file does not hold them.
-pub(super) fn coupling_ui(ui: &mut Ui, document: &Document, bezier: &Bezier, commands: &mut Vec<AppCommand>) {
+pub(super) fn coupling_ui(
+    ui: &mut Ui,
+    document: &Document,
+    bezier: &Bezier,
+    lengths: &Lengths,
+    commands: &mut Vec<AppCommand>,
+) {
     let mut coupling = document.coupling;
     let tip = format!("{} ({})", Action::ToggleTangents.tip(), Action::ToggleTangents.shortcut(ui.ctx()));
     ui.checkbox(&mut coupling.tangents, Action::ToggleTangents.label()).on_hover_text(tip);
-    ui.horizontal(|ui| mirror_ui(ui, document, bezier, &mut coupling));
+    ui.horizontal(|ui| mirror_ui(ui, bezier, lengths, &mut coupling));
     if let Some(mirror) = coupling.mirror {
         let (matched, count) = mirror.matched(bezier);
         ui.weak(format!("{matched} of {count} positions have a mirror image"));
@@ -22,7 +29,7 @@ pub(super) fn coupling_ui(ui: &mut Ui, document: &Document, bezier: &Bezier, com
     }
 }
 
-fn mirror_ui(ui: &mut Ui, document: &Document, bezier: &Bezier, coupling: &mut Coupling) {
+fn mirror_ui(ui: &mut Ui, bezier: &Bezier, lengths: &Lengths, coupling: &mut Coupling) {
     let tip = format!("{} ({})", Action::NextMirror.tip(), Action::NextMirror.shortcut(ui.ctx()));
     ui.label("Mirror").on_hover_text(&tip);
     if ui.selectable_label(coupling.mirror.is_none(), "off").on_hover_text("No symmetry").clicked() {
@@ -37,8 +44,7 @@ fn mirror_ui(ui: &mut Ui, document: &Document, bezier: &Bezier, coupling: &mut C
     }
     if let Some(mirror) = &mut coupling.mirror {
         ui.label("at");
-        let spec = Number::coordinate(length_speed(&document.scene().camera))
-            .tip("The plane's coordinate, in the object's axes");
+        let spec = lengths.coordinate().tip("The plane's coordinate, in the object's axes");
         number(ui, "Mirror plane", &mut mirror.at, &spec);
     }
 }

@@ -4,7 +4,7 @@ use super::glossary::{caption, explained, tip};
 use super::typing::{self, Typing};
 use crate::app::theme;
 use crate::math::Rgb;
-use crate::scene::{Camera, MAX_LENGTH, MAX_RADIANCE, MIN_LENGTH};
+use crate::scene::{MAX_LENGTH, MAX_RADIANCE};
 use egui::emath::Numeric;
 use egui::{ComboBox, DragValue, Grid, Layout, Response, RichText, TextEdit, Ui, Vec2, vec2};
 use glam::DVec3;
@@ -18,8 +18,6 @@ const LABEL_WIDTH: f32 = 76.0;
 const SWATCH_WIDTH: f32 = 24.0;
 /// Digits that fit in a number field, before and after the decimal point together.
 const DIGITS: usize = 5;
-/// Decimals that a length has at least.
-const LENGTH_DECIMALS: usize = 3;
 
 /// The range, unit and dragging speed of a number field.
 #[derive(Clone, Debug)]
@@ -43,16 +41,6 @@ impl Number {
     /// A number that cannot be negative.
     pub(super) fn positive(speed: f64) -> Self {
         Self::any(speed).within(0.0..=MAX_LENGTH)
-    }
-
-    /// A coordinate, scene units. Its decimals do not follow the speed, which depends on the camera's distance.
-    pub(super) fn coordinate(speed: f64) -> Self {
-        Self { decimals: Some(LENGTH_DECIMALS), ..Self::any(speed) }
-    }
-
-    /// A length above 0, scene units.
-    pub(super) fn length(speed: f64) -> Self {
-        Self::coordinate(speed).within(MIN_LENGTH..=MAX_LENGTH)
     }
 
     /// A scale factor of either sign.
@@ -81,11 +69,6 @@ impl Number {
     fn tip_of(&self, name: &str) -> &'static str {
         if self.tip.is_empty() { tip(name) } else { self.tip }
     }
-}
-
-/// A drag step for lengths, scene units: a thousandth of the distance from the camera to its target.
-pub(super) fn length_speed(camera: &Camera) -> f64 {
-    (0.001 * camera.position.distance(camera.target)).clamp(1e-6, 1e6)
 }
 
 /// A grid of rows, each with a label and a field.

@@ -70,6 +70,16 @@ pub(super) fn caption(ui: &mut Ui, name: &str) {
     explained(ui.label(in_two_lines(name)), name);
 }
 
+/// The label of a row whose fields leave no room for their unit, with the unit below the name.
+pub(super) fn caption_with_unit(ui: &mut Ui, name: &str, unit: &str) {
+    let label = ui.vertical(|ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let label = ui.label(name);
+        label.union(ui.weak(unit))
+    });
+    explained(label.inner, name);
+}
+
 /// Longest name on one line: longer ones would narrow the column of the fields.
 const LINE: usize = 14;
 

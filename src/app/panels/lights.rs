@@ -1,13 +1,14 @@
 //! The properties of a light.
 
-use super::fields::{Number, kind_row, length_speed, number_row, rows, strength_row, text_row, vector_row};
+use super::fields::{Number, kind_row, number_row, rows, strength_row, text_row, vector_row};
+use super::lengths::Lengths;
 use crate::app::commands::AppCommand;
-use crate::app::document::{Document, Edit, kinds};
+use crate::app::document::{Edit, kinds};
 use crate::scene::{Emitter, Light};
 use egui::Ui;
 
 /// The light's name, kind, position and strength.
-pub(super) fn light_ui(ui: &mut Ui, document: &Document, index: usize, light: &Light, commands: &mut Vec<AppCommand>) {
+pub(super) fn light_ui(ui: &mut Ui, index: usize, light: &Light, lengths: &Lengths, commands: &mut Vec<AppCommand>) {
     ui.strong("Light");
     let mut edited = light.clone();
     rows(ui, "light", |ui| {
@@ -16,15 +17,15 @@ pub(super) fn light_ui(ui: &mut Ui, document: &Document, index: usize, light: &L
         if let Some(kind) = kind_row(ui, "Type", kinds::emitter_kind(&light.emitter), &kinds) {
             edited.emitter = kinds::emitter_like(&light.emitter, kind);
         }
-        emitter_ui(ui, &mut edited.emitter, &light.name, length_speed(&document.scene().camera));
+        emitter_ui(ui, &mut edited.emitter, &light.name, lengths);
     });
     if edited != *light {
         commands.push(AppCommand::Edit(Edit::Light(index, edited)));
     }
 }
 
-fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, name: &str, speed: f64) {
-    let (length, component) = (Number::coordinate(speed), Number::any(0.01));
+fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, name: &str, lengths: &Lengths) {
+    let (length, component) = (lengths.coordinate(), Number::any(0.01));
     match emitter {
         Emitter::Point { position, intensity } => {
             vector_row(ui, "Position", position, &length);
@@ -32,7 +33,7 @@ fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, name: &str, speed: f64) {
         }
         Emitter::Sphere { center, radius, radiance } => {
             vector_row(ui, "Centre", center, &length);
-            number_row(ui, "Radius", radius, &Number::length(speed));
+            number_row(ui, "Radius", radius, &lengths.positive());
             strength_row(ui, "Radiance", radiance, "W/sr/m²", name);
         }
         Emitter::Quad { corner, edge_u, edge_v, radiance } => {
@@ -49,7 +50,7 @@ fn emitter_ui(ui: &mut Ui, emitter: &mut Emitter, name: &str, speed: f64) {
         Emitter::Beam { center, direction, radius, power } => {
             vector_row(ui, "Centre", center, &length);
             vector_row(ui, "Direction", direction, &component);
-            number_row(ui, "Radius", radius, &Number::length(speed));
+            number_row(ui, "Radius", radius, &lengths.positive());
             strength_row(ui, "Power", power, "W", name);
         }
     }

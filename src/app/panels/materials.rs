@@ -1,11 +1,12 @@
 //! The properties of a material.
 
 use super::fields::{Number, choice_row, color, color_row, kind_row, number, number_row, rows, text_row};
-use super::glossary::caption;
+use super::glossary::caption_with_unit;
+use super::lengths::Lengths;
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, kinds};
 use crate::math::Rgb;
-use crate::scene::{Color, Material, MaterialModel, Relief, Scene, TextureUse};
+use crate::scene::{Color, MaterialModel, Relief, Scene, TextureUse};
 use egui::Ui;
 use glam::DVec2;
 
@@ -23,11 +24,12 @@ pub(super) fn material_ui(
     ui: &mut Ui,
     document: &Document,
     index: usize,
-    material: &Material,
     naming: Naming,
+    lengths: &Lengths,
     commands: &mut Vec<AppCommand>,
 ) {
     let scene = document.scene();
+    let Some(material) = scene.materials.get(index) else { return };
     let mut edited = material.clone();
     rows(ui, "material", |ui| {
         if naming == Naming::Editable {
@@ -37,8 +39,8 @@ pub(super) fn material_ui(
         if let Some(kind) = kind_row(ui, "Type", kinds::model_kind(&material.model), &kinds) {
             edited.model = kinds::model_like(&material.model, kind);
         }
-        model_ui(ui, &mut edited.model, scene);
-        relief_ui(ui, &mut edited.relief, scene);
+        model_ui(ui, &mut edited.model, scene, lengths);
+        relief_ui(ui, &mut edited.relief, scene, lengths);
     });
     let users = scene.objects.iter().filter(|object| object.material == material.name).count();
     ui.weak(format!("Used by {users} object{}", if users == 1 { "" } else { "s" }));
@@ -47,7 +49,7 @@ pub(super) fn material_ui(
     }
 }
 
-fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
+fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene, lengths: &Lengths) {
     match model {
         MaterialModel::Diffuse { albedo } => surface_color_ui(ui, "Albedo", albedo, scene),
         MaterialModel::Phong { albedo, specular, exponent } => {
@@ -66,7 +68,7 @@ fn model_ui(ui: &mut Ui, model: &mut MaterialModel, scene: &Scene) {
                 Number::positive(0.002).within(1.0..=4.0).tip("Index of refraction: 1.33 for water, 1.5 for glass");
             number_row(ui, "Index of refraction", ior, &spec);
             surface_color_ui(ui, "Tint", tint, scene);
-            caption(ui, "Absorption");
+            caption_with_unit(ui, "Absorption", lengths.unit.reciprocal());
             ui.horizontal(|ui| color(ui, "Absorption", absorption, &Number::strength(0.01)));
             ui.end_row();
             priority_ui(ui, priority);
@@ -118,7 +120,7 @@ fn texture_ui(ui: &mut Ui, name: &str, map: &mut TextureUse, scene: &Scene) {
     ui.end_row();
 }
 
-fn relief_ui(ui: &mut Ui, relief: &mut Option<Relief>, scene: &Scene) {
+fn relief_ui(ui: &mut Ui, relief: &mut Option<Relief>, scene: &Scene, lengths: &Lengths) {
     let Some(first) = scene.textures.first() else { return };
     let current = match relief {
         None => "none",
@@ -144,7 +146,7 @@ fn relief_ui(ui: &mut Ui, relief: &mut Option<Relief>, scene: &Scene) {
         }
         Some(Relief::Height { map, depth }) => {
             texture_ui(ui, "Height map", map, scene);
-            number_row(ui, "Depth", depth, &Number::any(0.001).tip("Height of white above black, scene units"));
+            number_row(ui, "Depth", depth, &Number::any(0.001).unit(lengths.unit.suffix()));
         }
         None => {}
     }

@@ -8,6 +8,7 @@
 //! | `icons` | icons of the kinds of items |
 //! | `typing` | typed numbers: relative numbers, and messages on texts that are no numbers |
 //! | `fields` | fields for names, numbers, vectors and colours |
+//! | `lengths` | number fields of lengths |
 //! | `control_points` | the 4 x 4 control points of a patch, and the coordinates of the selected ones |
 //! | `coupling` | which control points move together |
 //! | `lights` | the properties of a light |
@@ -28,6 +29,7 @@ mod expression;
 mod fields;
 mod glossary;
 mod icons;
+mod lengths;
 mod lights;
 mod materials;
 mod numbers;

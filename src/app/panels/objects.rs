@@ -2,8 +2,9 @@
 
 use super::control_points::control_points_ui;
 use super::coupling::coupling_ui;
-use super::fields::{Number, choice_row, length_speed, number_row, rows, text_row, vector_row};
+use super::fields::{Number, choice_row, number_row, rows, text_row, vector_row};
 use super::glossary::caption;
+use super::lengths::Lengths;
 use super::materials::{Naming, material_ui};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, kinds};
@@ -17,6 +18,7 @@ pub(super) fn object_ui(
     document: &Document,
     index: usize,
     object: &Object,
+    lengths: &Lengths,
     commands: &mut Vec<AppCommand>,
 ) {
     ui.strong(format!("Object: {}", kinds::shape_kind(&object.shape)));
@@ -26,15 +28,15 @@ pub(super) fn object_ui(
         text_row(ui, "Name", &mut edited.name, ("object", index, &object.name));
         choice_row(ui, "Material", &mut edited.material, materials);
         body_ui(ui, document.scene(), index, &mut edited);
-        shape_ui(ui, &mut edited.shape, length_speed(&document.scene().camera));
+        shape_ui(ui, &mut edited.shape, lengths);
     });
     if edited != *object {
         commands.push(AppCommand::Edit(Edit::Object(index, edited)));
     }
     if let Shape::Bezier(bezier) = &object.shape {
         let points = CollapsingHeader::new("Control points").default_open(true).show(ui, |ui| {
-            control_points_ui(ui, document, index, bezier, commands);
-            coupling_ui(ui, document, bezier, commands);
+            control_points_ui(ui, document, index, bezier, lengths, commands);
+            coupling_ui(ui, document, bezier, lengths, commands);
         });
         points.header_response.on_hover_text("The points that shape the patches, and which of them move together");
     }
@@ -42,7 +44,7 @@ pub(super) fn object_ui(
     if let Some(index) = material {
         let header = CollapsingHeader::new(format!("Material: {}", object.material)).id_salt("material");
         let fold = header.default_open(true).show(ui, |ui| {
-            material_ui(ui, document, index, &document.scene().materials[index], Naming::Fixed, commands);
+            material_ui(ui, document, index, Naming::Fixed, lengths, commands);
         });
         fold.header_response.on_hover_text("How the surface scatters light; all objects of the material change");
     }
@@ -60,8 +62,8 @@ fn body_ui(ui: &mut Ui, scene: &Scene, index: usize, object: &mut Object) {
     object.body = (!name.is_empty()).then_some(name);
 }
 
-fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {
-    let length = Number::coordinate(speed);
+fn shape_ui(ui: &mut Ui, shape: &mut Shape, lengths: &Lengths) {
+    let length = lengths.coordinate();
     match shape {
         Shape::Quad { corner, edge_u, edge_v } => {
             vector_row(ui, "Corner", corner, &length);
@@ -70,14 +72,14 @@ fn shape_ui(ui: &mut Ui, shape: &mut Shape, speed: f64) {
         }
         Shape::Sphere { center, radius } => {
             vector_row(ui, "Centre", center, &length);
-            number_row(ui, "Radius", radius, &Number::length(speed));
+            number_row(ui, "Radius", radius, &lengths.positive());
         }
         Shape::Plane { point, normal, u_axis } => {
             vector_row(ui, "Point", point, &length);
             vector_row(ui, "Normal", normal, &Number::any(0.01));
             u_axis_ui(ui, u_axis);
         }
-        Shape::Bezier(bezier) => transform_ui(ui, &mut bezier.transform, speed),
+        Shape::Bezier(bezier) => transform_ui(ui, &mut bezier.transform, lengths),
     }
 }
 
@@ -97,8 +99,8 @@ fn u_axis_ui(ui: &mut Ui, u_axis: &mut Option<DVec3>) {
     }
 }
 
-fn transform_ui(ui: &mut Ui, transform: &mut Transform, speed: f64) {
-    vector_row(ui, "Translate", &mut transform.translate, &Number::coordinate(speed));
+fn transform_ui(ui: &mut Ui, transform: &mut Transform, lengths: &Lengths) {
+    vector_row(ui, "Translate", &mut transform.translate, &lengths.coordinate());
     vector_row(ui, "Rotate", &mut transform.rotate, &Number::any(0.5).unit("°"));
     vector_row(ui, "Scale", &mut transform.scale, &Number::factor(0.005));
 }

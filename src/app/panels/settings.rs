@@ -1,17 +1,18 @@
 //! The camera, the picture and the limits of light transport.
 
-use super::fields::{Number, color, count, length_speed, number, number_row, rows, text_row, vector_row};
-use super::glossary::{caption, explained};
+use super::fields::{Number, color, count, number, number_row, rows, text_row, vector_row};
+use super::glossary::{caption, caption_with_unit, explained};
+use super::lengths::Lengths;
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit};
 use crate::scene::{Film, Render, ToneCurve};
 use egui::{ComboBox, Slider, Ui};
 
 /// The camera's position, direction and field of view.
-pub(super) fn camera_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
+pub(super) fn camera_ui(ui: &mut Ui, document: &Document, lengths: &Lengths, commands: &mut Vec<AppCommand>) {
     let camera = document.scene().camera;
     let mut edited = camera;
-    let length = Number::coordinate(length_speed(&document.scene().camera));
+    let length = lengths.coordinate();
     ui.strong("Camera");
     rows(ui, "camera", |ui| {
         vector_row(ui, "Position", &mut edited.position, &length);
@@ -99,7 +100,7 @@ fn render_ui(ui: &mut Ui, render: &mut Render) {
     let field = count(ui, "Bounces", &mut render.max_bounces, 1..=1024, 0.1);
     field.on_hover_text("Maximum scattering events on a path; 1 renders direct light only");
     ui.end_row();
-    caption(ui, "Background");
+    caption_with_unit(ui, "Background", "W/sr/m²");
     ui.horizontal(|ui| color(ui, "Background", &mut render.background, &Number::strength(0.005)));
     ui.end_row();
 }

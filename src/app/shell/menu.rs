@@ -3,7 +3,7 @@
 use super::menu_item::{check_ui, item_ui};
 use super::surface_menu::surface_menu_ui;
 use crate::app::canvas::{Analysis, automatic_step, steps_around};
-use crate::app::commands::{Action, AppCommand, Next};
+use crate::app::commands::{Action, AppCommand, LengthUnit, Next};
 use crate::app::document::Document;
 use crate::app::viewpoint::{NamedView, Side};
 use crate::scene::built_in_scenes;
@@ -24,6 +24,7 @@ pub(crate) struct Visibility {
     /// The step of the snapping grid, scene units; `None` for the automatic step.
     pub(crate) grid: Option<f64>,
     pub(crate) panels: bool,
+    pub(crate) length_unit: LengthUnit,
     pub(crate) history: bool,
 }
 
@@ -142,6 +143,13 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
     ui.separator();
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
     ui.separator();
+    ui.menu_button("Unit of length", |ui| {
+        for unit in LengthUnit::ALL {
+            if ui.radio(visible.length_unit == unit, unit.label()).clicked() {
+                commands.push(AppCommand::LengthUnit(unit));
+            }
+        }
+    });
     let current = ui.ctx().options(|options| options.theme_preference);
     for (theme, label) in [
         (ThemePreference::Dark, "Dark"),

@@ -1,6 +1,6 @@
 use super::*;
 use crate::app::canvas::{Analysis, Shading};
-use crate::app::commands::{Action, AppCommand, Next};
+use crate::app::commands::{Action, AppCommand, LengthUnit, Next};
 use crate::app::keeping::{Folders, LoadedPreferences};
 use crate::scene::Location;
 use egui::ThemePreference;
@@ -60,12 +60,14 @@ fn the_next_window_has_the_aids_of_the_window_before() {
         apply(&mut first, AppCommand::Do(action));
     }
     apply(&mut first, AppCommand::Grid(Some(0.25)));
+    apply(&mut first, AppCommand::LengthUnit(LengthUnit::Millimetres));
     drop(first);
     let second = open_in(home.path());
     let canvas = &second.state().canvas;
     assert!(canvas.sight.x_ray && canvas.grasp.falloff.on && canvas.matches_window && !before);
     assert_eq!(canvas.analysis.analysis, Analysis { isolines: true, shading: Some(Shading::Zebra) });
     assert_eq!(canvas.grasp.grid, Some(0.25));
+    assert!(second.query_all_by_label("mm").count() > 0, "the unit after a length");
 }
 
 #[test]
