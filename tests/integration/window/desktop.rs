@@ -45,7 +45,12 @@ fn missing(tool: &str, package: &str, error: &std::io::Error) -> String {
 
 impl Desktop {
     pub(super) fn start() -> Self {
-        let screen = format!("{}x{}x24", SCREEN.0, SCREEN.1);
+        Self::start_scaled(1)
+    }
+
+    /// A display with this many screen pixels a point along each side, and programs that know it.
+    pub(super) fn start_scaled(scale: u32) -> Self {
+        let screen = format!("{}x{}x24", scale * SCREEN.0, scale * SCREEN.1);
         let server = Command::new("Xvfb")
             // It would begin anew whenever its last client has gone, and meanwhile answer none.
             .args(["-displayfd", "1", "-screen", "0", &screen, "-nolisten", "tcp", "-noreset"])
@@ -61,6 +66,7 @@ impl Desktop {
         let environment = vec![
             ("XDG_STATE_HOME", home.path().join("state").into_os_string()),
             ("XDG_CONFIG_HOME", home.path().join("config").into_os_string()),
+            ("WINIT_X11_SCALE_FACTOR", scale.to_string().into()),
             // No desktop of the user shows the dialogs of these windows.
             ("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nonexistent".into()),
         ];

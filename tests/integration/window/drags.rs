@@ -1,5 +1,6 @@
 //! Drags that move control points.
 
+use super::desktop::Desktop;
 use super::session::{Session, moved, point};
 use glam::DVec3;
 
@@ -58,4 +59,16 @@ fn a_drag_ends_where_the_button_is_released_even_without_a_frame_in_between() {
     let [(1, POINT, way)] = moved(&start, &after)[..] else { panic!("one point: {:?}", moved(&start, &after)) };
     let expected = 90.0 / Session::pixels_per_unit();
     assert!((way.x - expected).abs() < 1e-4, "90 pixels are {way}, not {expected}");
+}
+
+#[test]
+fn a_drag_moves_a_point_by_the_same_way_on_a_display_with_small_pixels() {
+    let session = Session::start_on(Desktop::start_scaled(2));
+    let start = session.in_file();
+    session.drag(session.pixel(point(&start, 1, POINT)), (60, -30), &[]);
+    let after = session.saved("point that moved", |scene| *scene != start);
+    let [(1, POINT, way)] = moved(&start, &after)[..] else { panic!("one point: {:?}", moved(&start, &after)) };
+    // One screen pixel shows one film pixel here, too.
+    let expected = DVec3::new(60.0, 30.0, 0.0) / Session::pixels_per_unit();
+    assert!((way - expected).length() < 1e-4, "(60, -30) pixels are {way}, not {expected}");
 }

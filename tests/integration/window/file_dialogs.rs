@@ -21,12 +21,14 @@ fn folder(desktop: &Desktop) -> PathBuf {
     desktop.home.path().join("bin")
 }
 
-/// Makes the stand-in the only program that the window can start.
-pub(super) fn install(desktop: &mut Desktop, answer: &Answer<'_>) {
-    let folder = folder(desktop);
+/// A desktop where the stand-in is the only program that the window can start.
+pub(super) fn desktop_with(answer: &Answer<'_>) -> Desktop {
+    let mut desktop = Desktop::start();
+    let folder = folder(&desktop);
     fs::create_dir_all(&folder).expect("a folder for the stand-in");
     desktop.environment.push(("PATH", folder.into_os_string()));
-    set(desktop, answer);
+    set(&desktop, answer);
+    desktop
 }
 
 /// Replaces the stand-in's answer.
@@ -74,7 +76,7 @@ fn save_by_typing(session: &Session, path: &Path) {
 
 #[test]
 fn file_dialogs_open_and_save_and_a_cancelled_one_changes_nothing() {
-    let session = Session::start_with(|desktop| install(desktop, &Answer::Cancel));
+    let session = Session::start_on(desktop_with(&Answer::Cancel));
     let desktop = &session.desktop;
     let [other, copy] = ["other.toml", "copy.toml"].map(|name| session.folder.path().join(name));
     fs::copy(&session.scene, &other).expect("a second scene");
@@ -114,7 +116,7 @@ fn file_dialogs_open_and_save_and_a_cancelled_one_changes_nothing() {
 
 #[test]
 fn where_the_file_dialog_fails_or_is_missing_a_path_can_be_typed() {
-    let session = Session::start_with(|desktop| install(desktop, &Answer::Fail));
+    let session = Session::start_on(desktop_with(&Answer::Fail));
     save_by_typing(&session, &session.folder.path().join("typed.toml"));
     asked(&session.desktop, 1);
     fs::remove_file(folder(&session.desktop).join("zenity")).expect("the stand-in goes");

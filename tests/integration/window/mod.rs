@@ -16,6 +16,7 @@
 //! | `closing` | the question about unsaved changes |
 //! | `recovery` | unsaved changes of a killed window |
 //! | `file_dialogs` | the desktop's file dialogs, by a stand-in for `zenity` |
+//! | `drops` | files that are dragged onto the window |
 //! | `random_input` | anything that a hand can do |
 //! | `startup` | no display, and a display that does not answer |
 
@@ -23,6 +24,7 @@ mod closing;
 mod convergence;
 mod desktop;
 mod drags;
+mod drops;
 mod file_dialogs;
 mod messages;
 mod navigation;

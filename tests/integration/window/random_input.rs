@@ -175,7 +175,7 @@ fn number(variable: &str, default: u64) -> u64 {
 fn random_input_neither_ends_the_window_nor_keeps_memory() {
     let seconds = number("PATCHLIGHT_RANDOM_SECONDS", 10);
     let seed = number("PATCHLIGHT_RANDOM_SEED", 1);
-    let mut session = Session::start_with(|desktop| file_dialogs::install(desktop, &Answer::Cancel));
+    let mut session = Session::start_on(file_dialogs::desktop_with(&Answer::Cancel));
     let (mut random, mut at) = (Random(seed), (640, 400));
     std::thread::sleep(Duration::from_secs(2));
     let before = memory(&session);

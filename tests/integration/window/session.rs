@@ -70,16 +70,14 @@ pub(super) struct Session {
 
 impl Session {
     pub(super) fn start() -> Self {
-        Self::start_with(|_| {})
+        Self::start_on(Desktop::start())
     }
 
-    /// Starts with a desktop that `prepare` changes before the window opens.
-    pub(super) fn start_with(prepare: impl FnOnce(&mut Desktop)) -> Self {
+    /// Starts on this desktop.
+    pub(super) fn start_on(desktop: Desktop) -> Self {
         let folder = tempfile::tempdir().expect("a folder for the scene");
         let scene = folder.path().join("scene.toml");
         std::fs::write(&scene, scene_text()).expect("the scene is written");
-        let mut desktop = Desktop::start();
-        prepare(&mut desktop);
         let program = desktop.open(&scene);
         let mut session = Self { desktop, program, folder, scene, corner: (0, 0) };
         let mut last = None;
