@@ -30,6 +30,8 @@ const GRID: (f64, i32) = (0.09, 5);
 const CLEAR: f64 = 0.95;
 /// Cones are tested, and kept inside of the picture, with this factor: rays on a circle leave gaps, and a margin looks better.
 const MARGIN: f64 = 1.06;
+/// Half the gap between neighbouring rays in a cone, over the cone's radius.
+const GAP: f64 = 0.15;
 /// A place this much nearer than the usual depth hides what is seen there, so that other places come first.
 const NEAR: f64 = 0.7;
 /// The smallest and the largest usual depth, over the median distance of the surfaces in the picture.
@@ -152,12 +154,21 @@ impl<'a> View<'a> {
         if !is_inside {
             return None;
         }
-        let nearest = cone(axis, MARGIN * sine).filter_map(|direction| self.distance(direction)).min_by(f64::total_cmp);
+        let hits = cone(axis, MARGIN * sine).filter_map(|direction| self.distance(direction));
+        let nearest = hits.chain(self.centers_in_cone(axis, MARGIN * sine)).min_by(f64::total_cmp);
         // The farthest point of the ball lies within (1 + sine) of the distance of its centre.
         let depth = nearest.map_or(usual, |nearest| usual.min(CLEAR * nearest / (1.0 + sine)));
         let ball = self.ball_at(axis, sine, depth);
         let is_far = |from: &[DVec3], radii: f64| from.iter().all(|at| at.distance(ball.center) > radii * ball.radius);
         (is_far(&self.lights, 1.0) && is_far(&self.objects, 0.5) && ball.radius > 0.0).then_some(ball)
+    }
+
+    /// Distances of the items whose centres lie in a cone, less the radius of an item that all rays into the cone may miss.
+    fn centers_in_cone(&self, axis: DVec3, sine: f64) -> impl Iterator<Item = f64> {
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        let ways = self.lights.iter().chain(&self.objects).map(|center| *center - self.position);
+        let seen = ways.filter(move |way| way.dot(axis) >= cosine * way.length() && way.length() > 0.0);
+        seen.map(move |way| (1.0 - GAP * sine) * way.length())
     }
 
     fn ball_at(&self, axis: DVec3, sine: f64, depth: f64) -> Sphere {
@@ -176,10 +187,10 @@ fn lamp(emitter: &Emitter) -> Option<Primitive> {
     }
 }
 
-/// Unit directions that fill a cone: its axis, and three circles. `sine` is that of its half angle.
+/// Unit directions that fill a cone: its axis, and four circles. `sine` is that of its half angle.
 fn cone(axis: DVec3, sine: f64) -> impl Iterator<Item = DVec3> {
     let basis = OrthonormalBasis::from_normal(axis);
-    let circles = [(1.0 / 3.0, 8), (2.0 / 3.0, 12), (1.0, 20)];
+    let circles = [(0.25, 6), (0.5, 12), (0.75, 18), (1.0, 24)];
     let around = circles.into_iter().flat_map(move |(share, count)| {
         let (sine, basis) = (share * sine.min(1.0), basis);
         (0..count).map(move |k| {
@@ -193,9 +204,10 @@ fn cone(axis: DVec3, sine: f64) -> impl Iterator<Item = DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::document::{Item, NewItem, Selection};
+    use crate::app::document::{Edit, Item, NewItem, Selection, new_items};
     use crate::app::viewpoint::of_selection;
     use crate::scene::{Camera, Film, Location, SceneFile, built_in_scenes};
+    use std::path::Path;
     use std::sync::Arc;
 
     const FINITE: [NewItem; 7] = [
@@ -244,7 +256,7 @@ mod tests {
         }
     }
 
-    /// Adds every item twice, each with the others in the scene.
+    /// Adds every item twice, then the patches of a file, each with the others in the scene.
     fn assert_new_items_are_seen(scene: &Scene, name: &str) {
         let mut scene = scene.clone();
         let mut centers: Vec<DVec3> = Vec::new();
@@ -258,6 +270,11 @@ mod tests {
             edit.apply(&mut scene);
             assert_seen(&before, &extent(&scene, new), &format!("{new:?} in {name}"));
         }
+        let room = free_ball(&scene, &surfaces(&scene), Aim::Middle);
+        let teapot = new_items::surface(&scene, Path::new("scenes/teapot.bpt"), &room).unwrap();
+        let before = scene.clone();
+        Edit::AddObject(teapot).apply(&mut scene);
+        assert_seen(&before, &extent(&scene, NewItem::Patch), &format!("the teapot in {name}"));
     }
 
     #[test]

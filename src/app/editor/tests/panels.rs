@@ -1,5 +1,6 @@
 use super::*;
-use crate::app::document::{Item, Selection};
+use crate::app::commands::AppCommand;
+use crate::app::document::{Edit, Item, NewItem, Selection};
 use crate::scene::{Color, Emitter, MaterialModel, Shape, built_in_scenes};
 use egui_kittest::kittest::NodeT;
 
@@ -198,6 +199,52 @@ fn every_control_of_the_side_panels_has_a_tooltip() {
             assert!(texts_under(&mut ui, at) > alone, "\"{label}\" at {at} has no tooltip, showing {item:?}");
         }
     }
+}
+
+#[test]
+fn an_added_item_is_selected_and_is_one_undo_step() {
+    let mut ui = open("report");
+    let ctx = ui.ctx.clone();
+    for new in NewItem::OBJECTS.into_iter().chain(NewItem::LIGHTS) {
+        let before = scene(&ui).clone();
+        ui.state_mut().apply(&ctx, AppCommand::Add(new));
+        ui.run_steps(2);
+        let added = match ui.state().document.selection.item {
+            Item::Object(index) => scene(&ui).objects[index].name.clone(),
+            Item::Light(index) => scene(&ui).lights[index].name.clone(),
+            other => panic!("{other:?} is selected after {new:?}"),
+        };
+        assert!(added.starts_with(new.label()), "{added}");
+        press(&mut ui, Key::Z);
+        assert_eq!(*scene(&ui), before, "{new:?}");
+    }
+}
+
+#[test]
+fn decimals_of_lengths_do_not_follow_the_camera() {
+    let mut ui = open("cornell");
+    let shown = |ui: &Ui| {
+        let field = ui.get_by_role_and_label(Role::SpinButton, "Corner x");
+        field.accesskit_node().value().unwrap_or_default()
+    };
+    let near = shown(&ui);
+    assert!(!near.is_empty(), "the field shows its number");
+    let mut camera = scene(&ui).camera;
+    camera.position = camera.target + 1e4 * (camera.position - camera.target);
+    ui.state_mut().document.edit(Edit::Camera(camera));
+    ui.run_steps(3);
+    assert_eq!(shown(&ui), near);
+}
+
+#[test]
+fn entries_with_a_check_mark_show_their_key_at_the_right() {
+    let mut ui = open("cornell");
+    choose_from_menu(&mut ui, &["Edit"]);
+    let entry = ui.get_by_role(Role::CheckBox);
+    let label = entry.accesskit_node().label().unwrap_or_default();
+    assert!(label.starts_with("Show history") && !label.contains('('), "{label}");
+    let above = ui.get_by_label_contains("Undo").rect();
+    assert!((entry.rect().width() - above.width()).abs() < 1.0, "as wide as the entry above");
 }
 
 #[test]
