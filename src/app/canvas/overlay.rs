@@ -2,7 +2,7 @@
 
 use super::drag::Constraint;
 use super::gizmo::{Axis, Gizmo, Part};
-use super::stage::{Look, ScreenHandle, Stage};
+use super::stage::{Look, ScreenHandle, Stage, is_tiny};
 use crate::app::document::{Handle, PointIndex};
 use crate::app::theme::{self, overlay};
 use crate::scene::Bezier;
@@ -21,12 +21,15 @@ const RADIUS_FAINT: f32 = 1.5;
 const HEAD: f32 = 11.0;
 
 /// Paints the control nets of an object: in full where the camera sees a current patch, faint where an object hides it, and
-/// faint where the camera sees another patch.
+/// faint where the camera sees another patch, unless that is tiny on the screen.
 pub(crate) fn paint_net(painter: &Painter, stage: &Stage<'_>, object: usize, bezier: &Bezier) {
     let world_from_object = bezier.transform.world_from_object();
     for (patch, net) in bezier.patches.iter().enumerate() {
         let current = stage.sight.is_current(patch, stage.document.selection.patch);
         let screen = net.points.map(|row| row.map(|point| stage.screen(world_from_object.transform_point3(point))));
+        if !current && is_tiny(screen.as_flattened()) {
+            continue;
+        }
         let hidden = |i: usize, j: usize| stage.sight.is_point_hidden(object, PointIndex { patch, i, j });
         for ((i, j), (k, l)) in segments() {
             let is_hidden = hidden(i, j) || hidden(k, l);

@@ -14,6 +14,10 @@ const GRAB_SIZE: f32 = 16.0;
 /// Distance from a handle at which a press outside of every square still means the handle, screen points.
 const REACH: f32 = 14.0;
 
+/// Extent on the screen below which a patch that is not current shows no control points, screen points: they would cover the
+/// surface.
+const TINY: f32 = 12.0;
+
 /// The document with its transforms to the screen, for one frame of the canvas.
 pub(crate) struct Stage<'a> {
     pub(crate) document: &'a Document,
@@ -71,6 +75,12 @@ pub(crate) fn grabbed(drawn: &[ScreenHandle], at: Pos2) -> Option<Handle> {
     of(false).or_else(|| of(true)).map(|drawn| drawn.handle)
 }
 
+/// Whether a patch with these control points on the screen is too small to show them; `None` is behind the camera.
+pub(crate) fn is_tiny(points: &[Option<Pos2>]) -> bool {
+    let around = points.iter().flatten().fold(Rect::NOTHING, |around, at| around.union(Rect::from_pos(*at)));
+    around.size().max_elem() < TINY
+}
+
 impl Stage<'_> {
     /// The screen point of a world point; `None` behind the camera.
     pub(crate) fn screen(&self, world: DVec3) -> Option<Pos2> {
@@ -98,13 +108,34 @@ impl Stage<'_> {
             return Vec::new();
         }
         let visible = handles::visible(self.document.scene(), self.document.selection.item, self.sight.welds.groups());
-        let mut drawn: Vec<ScreenHandle> = visible.into_iter().filter_map(|handle| self.placed(handle)).collect();
+        let tiny = self.tiny_patches();
+        let mut drawn: Vec<ScreenHandle> =
+            visible.into_iter().filter_map(|handle| self.placed(handle, &tiny)).collect();
         drawn.sort_by(|a, b| a.look.cmp(&b.look).then(b.depth.total_cmp(&a.depth)));
         drawn
     }
 
-    /// The handle on the screen; `None` off the canvas, and for a control point that is neither seen nor current.
-    fn placed(&self, id: Handle) -> Option<ScreenHandle> {
+    /// Which patches of the selected object are too small on the screen to show their control points; empty for other items.
+    fn tiny_patches(&self) -> Vec<bool> {
+        let Some(bezier) = self.document.selection.bezier(self.document.scene()) else { return Vec::new() };
+        let world_from_object = bezier.transform.world_from_object();
+        let screen = |point: &DVec3| self.screen(world_from_object.transform_point3(*point));
+        bezier
+            .patches
+            .iter()
+            .map(|net| is_tiny(&net.points.as_flattened().iter().map(screen).collect::<Vec<_>>()))
+            .collect()
+    }
+
+    /// Whether a control point belongs only to patches that are too small on the screen.
+    fn is_in_tiny(&self, id: Handle, tiny: &[bool]) -> bool {
+        let Handle::Point { point, .. } = id else { return false };
+        self.sight.welds.with(point).all(|point| tiny.get(point.patch).is_some_and(|tiny| *tiny))
+    }
+
+    /// The handle on the screen; `None` off the canvas, and for a control point that is not current where it is not seen or
+    /// its patches are too small.
+    fn placed(&self, id: Handle, tiny: &[bool]) -> Option<ScreenHandle> {
         let world = id.position(self.document.scene())?;
         let screen = self.screen(world).filter(|screen| self.transform.canvas.contains(*screen))?;
         let (handle, current) = match id {
@@ -117,6 +148,7 @@ impl Stage<'_> {
         let look = match (current, self.sight.is_hidden(id)) {
             (true, false) => Look::Full,
             (true, true) => Look::Hidden,
+            (false, false) if self.is_in_tiny(id, tiny) => return None,
             (false, false) => Look::Faint,
             (false, true) => return None,
         };
@@ -184,6 +216,13 @@ mod tests {
     fn drawn(light: usize, x: f32, look: Look, depth: f64) -> ScreenHandle {
         let handle = Handle::Light(light);
         ScreenHandle { handle, id: handle, screen: pos2(x, 0.0), look, depth }
+    }
+
+    #[test]
+    fn only_a_small_patch_is_tiny() {
+        let corners = |size: f32| [Some(pos2(3.0, 4.0)), None, Some(pos2(3.0 + size, 4.0))];
+        assert!(is_tiny(&corners(11.0)) && !is_tiny(&corners(13.0)));
+        assert!(is_tiny(&[None; 16]), "behind the camera");
     }
 
     #[test]

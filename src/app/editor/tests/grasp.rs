@@ -248,3 +248,19 @@ fn a_drag_ends_where_and_how_the_button_was_released_within_one_frame() {
     // Perspective bends the way of a point along an axis by a few per cent.
     assert!((whole.x / tenth.x - 4.0).abs() < 0.4, "{whole} is four times {tenth}");
 }
+
+#[test]
+fn control_points_of_patches_that_are_tiny_on_the_screen_do_not_cover_them() {
+    let mut ui = open("teapot");
+    let shown = |ui: &Ui| ui.query_all_by_label_contains("P[").count();
+    let near = shown(&ui);
+    let mut camera = ui.state().seen_camera();
+    camera.position = camera.target + 60.0 * (camera.position - camera.target);
+    ui.state_mut().show_camera(camera, "View");
+    ui.run_steps(20);
+    let far = shown(&ui);
+    assert!(
+        (16..=16 + 32).contains(&far) && near > 100,
+        "{near} near, {far} far: the list, and at most two current patches"
+    );
+}
