@@ -95,7 +95,8 @@
 //!   the neighbouring pixels need weights its camera samples. After iterations 4, 8, 16, ... the plan is refined by the
 //!   measurements of the iterations: radii of density estimates, pixels that gather caustics, and the number of camera
 //!   samples of each pixel.
-//! - A cancelled pass returns nothing, and the film changes only by whole iterations. Drafts never enter the film.
+//! - A cancelled pass returns nothing, and the film changes only by whole iterations. Drafts and the picture before an
+//!   edit never enter the film.
 //! - Colours are `f32`; positions, directions and distances are `f64`, because the offset that keeps a ray off the surface
 //!   it leaves has to be small against the scene and large against rounding. Photons and visible points are stored in `f32`,
 //!   relative to the middle of the scene.
@@ -156,6 +157,8 @@
 //! | kept plan | plan that no later measurement refines, so that parts of a run need no measurements of other parts |
 //! | checkpoint | a part in a file |
 //! | draft | quick first picture after an edit, with fewer pixels and photons |
+//! | stand-in | picture before an edit, which the screen shows where the edit has hardly changed the light, times the change |
+//! | preview | picture for the screen alone: together with the stand-in |
 //! | generation | number of a scene that the engine was sent; grows with each edit |
 //! | band | whole rows of the film that the camera pass and the gather pass render independently |
 //! | heterogeneous pixel | pixel that shows several surfaces or a texture; gets at least four camera samples |

@@ -51,7 +51,7 @@ impl FilmPart {
     pub(super) fn commit(
         &mut self,
         plan: &Plan,
-        Contribution { photons, samples, differences, energy }: &Contribution,
+        Contribution { photons, samples, differences, energy, .. }: &Contribution,
     ) -> Option<Plan> {
         let Self { film, statistics, .. } = self;
         let iteration = self.rendered + 1;

@@ -18,10 +18,19 @@ pub struct Frame {
     pub iteration: u64,
     /// Linear radiance.
     pub image: Arc<LinearImage>,
+    /// What a screen may show instead while the picture has few iterations: together with the picture before an edit.
+    pub preview: Option<Arc<LinearImage>>,
     /// Statistics of the rendering so far.
     pub stats: Stats,
     /// The decisions of the plan.
     pub plan: Arc<PlanSummary>,
+}
+
+impl Frame {
+    /// The picture for a screen.
+    pub fn shown(&self) -> &Arc<LinearImage> {
+        self.preview.as_ref().unwrap_or(&self.image)
+    }
 }
 
 /// The decisions of a plan: which items are rendered, which are skipped, and why; warnings about the scene.

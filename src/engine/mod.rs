@@ -16,14 +16,15 @@
 //! | `checkpoint` | a part of a run in a file |
 //! | `iteration` | one iteration: the main loop of the algorithm |
 //! | `session` | the rendering of one scene |
+//! | `stand_in` | the scene before an edit and its picture |
 //! | `shared` | the state that the caller and the worker share |
-//! | `draft_pace` | how coarse drafts are |
+//! | `draft/` | quick first pictures |
 //! | `worker` | the worker thread |
 //! | `handle` | the engine as the caller sees it |
 
 mod checkpoint;
 mod convergence_rates;
-mod draft_pace;
+mod draft;
 mod film_merge;
 mod film_part;
 mod film_sums;
@@ -35,9 +36,11 @@ mod pass_meter;
 mod run;
 mod session;
 mod shared;
+mod stand_in;
 mod worker;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointFile};
+pub use draft::Draft;
 pub use film_part::FilmPart;
 pub use film_sums::{FilmSums, MOST_ITERATIONS};
 pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, Stats};

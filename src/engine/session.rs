@@ -1,13 +1,15 @@
 //! The rendering of one scene.
 
+use super::draft::Draft;
 use super::film_part::FilmPart;
 use super::film_sums::FilmSums;
 use super::frame::{Frame, PlanSummary, Stats};
 use super::iteration::iterate;
 use super::pass_meter::{PassMeter, Work};
 use crate::film::LinearImage;
+use crate::math::Rgb;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Component, Contribution, PassInput, Plan};
+use crate::transport::{Cancel, Component, Contribution, DraftSize, PassInput, Plan};
 use crate::world::{Camera, PrepareError, World, prepare, warnings};
 use std::sync::Arc;
 use std::time::Instant;
@@ -56,6 +58,8 @@ pub struct Session {
     summary: Arc<PlanSummary>,
     seed: u64,
     part: FilmPart,
+    /// The last draft with pixels over the whole film.
+    draft: Option<Draft>,
 }
 
 impl Session {
@@ -73,7 +77,7 @@ impl Session {
         let summary = Arc::new(PlanSummary { notes: plan.notes.clone(), warnings: warnings(&file.scene, &world) });
         let mut part = FilmPart::new(&plan);
         part.passes.prepare = start.elapsed().as_secs_f64();
-        Ok(Self { world, plan, summary, seed, part })
+        Ok(Self { world, plan, summary, seed, part, draft: None })
     }
 
     /// Restricts the session to one component of the light, if one is given. Call this before the first iteration.
@@ -171,21 +175,49 @@ impl Session {
         self.frame_of(generation, image, self.iterations(), self.stats())
     }
 
-    /// A quick picture with every `coarseness`-th pixel each way, as a frame of this generation; `None` when cancelled. The film does
-    /// not change.
-    pub fn draft(&self, generation: u64, coarseness: u32, cancel: Cancel) -> Option<Frame> {
+    /// A quick picture of this size, of the chosen pixels only, if any; `None` when cancelled. The film does not change.
+    pub fn draft(&self, size: DraftSize, chosen: Option<Arc<[bool]>>, cancel: Cancel) -> Option<Draft> {
         let start = Instant::now();
-        let plan = self.plan.draft(coarseness);
+        let plan = self.plan.draft(size);
+        let plan = chosen.map_or(plan.clone(), |chosen| plan.of_pixels(chosen));
         let (width, height) = (plan.camera.width, plan.camera.height);
         let meter = PassMeter::default();
         let input = PassInput { world: &self.world, plan: &plan, seed: self.seed, iteration: 1, cancel };
-        let image = iterate(&input, &meter, |Contribution { photons, samples, .. }| {
+        let (pixels, sharp, first_hits) = iterate(&input, &meter, |contribution| {
+            let Contribution { photons, samples, interreflection, first_hits, .. } = contribution;
             let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());
-            LinearImage::positive_part(width, height, pixels)
+            let pixels: Vec<Rgb> = pixels.collect();
+            let sharp = pixels.iter().zip(interreflection).map(|(all, smooth)| *all - *smooth).collect();
+            (pixels, sharp, first_hits.clone())
         })?;
+        let image = LinearImage::positive_part(width, height, pixels);
         let Work { counters, seconds } = meter.work();
         let stats = Stats::of_work(counters, seconds, start.elapsed().as_secs_f64());
-        Some(Frame { draft: true, ..self.frame_of(generation, Arc::new(image), 0, stats) })
+        Some(Draft { size, image: Arc::new(image), sharp, first_hits, stats })
+    }
+
+    /// A draft of this size with pixels over the whole film; kept for the next call. Never cancelled.
+    pub(super) fn whole_draft(&mut self, size: DraftSize) -> Option<&Draft> {
+        if self.draft.as_ref().is_none_or(|draft| draft.size != size) {
+            self.draft = self.draft(size, None, Cancel::NEVER);
+        }
+        self.draft.as_ref()
+    }
+
+    /// A draft, or another picture of the scene that is no film, as a frame of this generation.
+    pub(super) fn frame_of_draft(&self, generation: u64, image: Arc<LinearImage>, stats: Stats) -> Frame {
+        Frame { draft: true, ..self.frame_of(generation, image, 0, stats) }
+    }
+
+    /// The session without its iterations: its scene, for drafts.
+    pub(super) fn without_film(mut self) -> Self {
+        self.part = FilmPart::new(&self.plan);
+        self
+    }
+
+    /// The camera with the film's grid.
+    pub(super) fn camera(&self) -> Camera {
+        self.world.camera
     }
 
     /// Statistics of the rendering so far.
@@ -195,6 +227,6 @@ impl Session {
     }
 
     fn frame_of(&self, generation: u64, image: Arc<LinearImage>, iteration: u64, stats: Stats) -> Frame {
-        Frame { generation, draft: false, iteration, image, stats, plan: self.summary.clone() }
+        Frame { generation, draft: false, iteration, image, preview: None, stats, plan: self.summary.clone() }
     }
 }

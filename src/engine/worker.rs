@@ -1,11 +1,13 @@
 //! The worker thread: prepares the newest scene, drafts it, and renders iterations until a newer scene arrives.
 
-use super::draft_pace::DraftPace;
+use super::draft::{DraftPace, Preview};
+use super::frame::Frame;
 use super::messages::Status;
 use super::session::{Session, SessionError};
 use super::shared::Shared;
+use super::stand_in::StandIn;
 use crate::scene::SceneFile;
-use crate::transport::Cancel;
+use crate::transport::{Cancel, DraftSize};
 use crossbeam_channel::Receiver;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -13,6 +15,10 @@ use std::time::{Duration, Instant};
 
 /// Least time between frames of a converging picture.
 const FRAME_INTERVAL: Duration = Duration::from_millis(60);
+
+/// Iterations, as full ones, from which on a picture replaces the one that stands in for it after edits: one with fewer is noisier than an
+/// older picture with the changes since.
+const SETTLED_WEIGHT: f64 = 8.0;
 
 /// The state of the worker thread.
 pub(super) struct Worker {
@@ -23,7 +29,13 @@ pub(super) struct Worker {
     /// The present scene and its generation.
     current: Option<(u64, Arc<SceneFile>)>,
     session: Option<Session>,
+    /// The scene of the session.
+    rendered: Option<Arc<SceneFile>>,
     drafts: DraftPace,
+    /// The picture before the edits.
+    stand_in: Option<StandIn>,
+    /// The first picture of the present scene, if another one stands in for parts of it.
+    preview: Option<Preview>,
     last_frame: Option<Instant>,
 }
 
@@ -37,7 +49,19 @@ struct Demands {
 impl Worker {
     /// A worker without a scene.
     pub(super) fn new(shared: Arc<Shared>, woken: Receiver<()>, pool: rayon::ThreadPool, seed: u64) -> Self {
-        Self { shared, woken, pool, seed, current: None, session: None, drafts: DraftPace::default(), last_frame: None }
+        Self {
+            shared,
+            woken,
+            pool,
+            seed,
+            current: None,
+            session: None,
+            rendered: None,
+            drafts: DraftPace::default(),
+            stand_in: None,
+            preview: None,
+            last_frame: None,
+        }
     }
 
     /// Works until the engine is dropped.
@@ -58,6 +82,9 @@ impl Worker {
             if let Some(status) = rest {
                 // Published once: an earlier call to wake up may still be in the channel.
                 if self.shared.status() != status {
+                    if status == Status::Converged {
+                        self.preview = None;
+                    }
                     self.publish_if(|iterations| iterations > 0);
                     self.shared.set_status(status);
                 }
@@ -77,6 +104,10 @@ impl Worker {
         let restart = request.restart.take();
         let scene = request.scene.take();
         drop(request);
+        if restart.is_some() {
+            // A restart shows how the picture converges, from its beginning.
+            (self.rendered, self.stand_in) = (None, None);
+        }
         let next = match (scene, restart, &self.current) {
             (Some((generation, scene)), restart, _) => Some((restart.unwrap_or(0).max(generation), scene)),
             (None, Some(generation), Some((_, scene))) => Some((generation, scene.clone())),
@@ -95,16 +126,52 @@ impl Worker {
         if self.session.is_none() {
             self.shared.set_status(Status::Preparing);
         }
-        let previous = self.session.take();
-        let session = self.pool.install(|| Session::prepare(&scene, self.seed, previous.as_ref()))?;
-        let start = Instant::now();
-        // Never cancelled: otherwise a fast drag would show nothing.
-        let draft = self.pool.install(|| session.draft(generation, self.drafts.first(), Cancel::NEVER));
-        self.drafts.first_took(start.elapsed().as_secs_f64());
-        draft.into_iter().for_each(|draft| self.shared.publish(draft));
-        self.session = Some(session);
+        self.preview = None;
+        let previous = self.rendered.take().zip(self.session.take());
+        let known = previous.as_ref().map(|(_, session)| session);
+        let mut session = self.pool.install(|| Session::prepare(&scene, self.seed, known))?;
+        self.keep_stand_in(previous, &scene, &session);
+        if let Some(frame) = self.first_picture(&mut session, generation) {
+            self.shared.publish(frame);
+        }
+        (self.session, self.rendered) = (Some(session), Some(scene));
         self.last_frame = None;
         Ok(())
+    }
+
+    /// The first picture of a session. Never cancelled: otherwise a fast drag would show nothing.
+    fn first_picture(&mut self, session: &mut Session, generation: u64) -> Option<Frame> {
+        let Self { pool, drafts, stand_in, .. } = self;
+        let (camera, pixels) = (session.camera(), session.camera().pixel_count());
+        let size = drafts.first(pixels, stand_in.is_some());
+        let before = stand_in.as_mut().and_then(|stand_in| pool.install(|| stand_in.with_draft(size)));
+        let start = Instant::now();
+        let draft = pool.install(|| session.whole_draft(size))?;
+        drafts.first_took(draft);
+        let (image, stats) = (draft.image.clone(), draft.stats);
+        let Some(preview) = before.map(|before| pool.install(|| before.preview(camera, draft))) else {
+            return Some(session.frame_of_draft(generation, image, stats));
+        };
+        let spent = start.elapsed().as_secs_f64();
+        let coarseness = drafts.of_changes(pixels, preview.doubtful_fraction(), spent);
+        let finer = coarseness.and_then(|coarseness| {
+            let size = DraftSize { coarseness, ..size };
+            pool.install(|| session.draft(size, Some(preview.doubtful(coarseness)), Cancel::NEVER))
+        });
+        let preview = finer.map_or_else(|| preview.clone(), |finer| pool.install(|| preview.refined(&finer)));
+        let image = preview.image.clone();
+        self.preview = Some(preview);
+        Some(session.frame_of_draft(generation, image, stats))
+    }
+
+    /// Keeps the picture of the previous scene for the edits that follow, if the one that is kept does not fit the next scene, or has
+    /// converged less; forgets a picture that does not fit.
+    fn keep_stand_in(&mut self, previous: Option<(Arc<SceneFile>, Session)>, scene: &SceneFile, next: &Session) {
+        let fits = |stand_in: &StandIn| stand_in.fits(scene, next.camera());
+        let kept = self.stand_in.take().filter(fits);
+        let least = kept.as_ref().map_or(0.0, |kept| kept.weight.min(SETTLED_WEIGHT));
+        let better = previous.filter(|(_, session)| session.film().weight() > least);
+        self.stand_in = better.map(|(scene, session)| StandIn::new(scene, session)).filter(fits).or(kept);
     }
 
     /// Renders the next draft or iteration of the current scene.
@@ -112,15 +179,23 @@ impl Worker {
         let (Some((generation, _)), Some(session)) = (&self.current, &mut self.session) else { return Ok(()) };
         let (generation, shared) = (*generation, &self.shared);
         let outdated = move || shared.is_outdated(generation);
+        let cancel = Cancel::when(&outdated);
         if let Some(coarseness) = self.drafts.next() {
             // Finer drafts bridge the time that the first iteration takes.
             let start = Instant::now();
-            let draft = self.pool.install(|| session.draft(generation, coarseness, Cancel::when(&outdated)));
-            self.drafts.next_took(start.elapsed().as_secs_f64());
-            draft.into_iter().for_each(|draft| self.shared.publish(draft));
+            let coarseness = if self.preview.is_some() { 1 } else { coarseness };
+            let size = DraftSize { coarseness, ..DraftSize::FULL };
+            let doubtful = self.preview.as_ref().map(|preview| preview.doubtful(coarseness));
+            let draft = self.pool.install(|| session.draft(size, doubtful, cancel));
+            self.drafts.next_took(coarseness, start.elapsed().as_secs_f64());
+            if let Some(draft) = draft {
+                self.preview = self.preview.as_ref().map(|preview| preview.refined(&draft));
+                let image = self.preview.as_ref().map_or(draft.image, |preview| preview.image.clone());
+                self.shared.publish(session.frame_of_draft(generation, image, draft.stats));
+            }
             return Ok(());
         }
-        let advanced = self.pool.install(|| session.advance(Cancel::when(&outdated)));
+        let advanced = self.pool.install(|| session.advance(cancel));
         if advanced.is_some() && self.last_frame.is_none_or(|at| at.elapsed() >= FRAME_INTERVAL) {
             self.publish_if(|_| true);
         }
@@ -131,7 +206,10 @@ impl Worker {
         if let (Some((generation, _)), Some(session)) = (&self.current, &self.session)
             && wanted(session.iterations())
         {
-            self.shared.publish(session.frame(*generation));
+            let frame = session.frame(*generation);
+            let weight = session.film().weight();
+            let preview = self.preview.as_ref().and_then(|preview| preview.with(&frame.image, weight)).map(Arc::new);
+            self.shared.publish(Frame { preview, ..frame });
             self.last_frame = Some(Instant::now());
         }
     }

@@ -60,8 +60,8 @@ impl Camera {
         Ray::new(self.position, (self.forward + x * self.right + y * self.up).normalize())
     }
 
-    /// The projection of a point; `None` for points behind the camera or outside of the film.
-    pub fn project(&self, point: DVec3) -> Option<Projected> {
+    /// The film position of a point, which may lie outside of the film; `None` for points behind the camera.
+    pub fn film_position(&self, point: DVec3) -> Option<DVec2> {
         let offset = point - self.position;
         let depth = offset.dot(self.forward);
         if depth <= 0.0 || depth.is_nan() {
@@ -70,11 +70,18 @@ impl Camera {
         let scale = 1.0 / (depth * self.pixel_side);
         let x = 0.5 * f64::from(self.width) + offset.dot(self.right) * scale;
         let y = 0.5 * f64::from(self.height) - offset.dot(self.up) * scale;
+        Some(DVec2::new(x, y))
+    }
+
+    /// The projection of a point; `None` for points behind the camera or outside of the film.
+    pub fn project(&self, point: DVec3) -> Option<Projected> {
+        let DVec2 { x, y } = self.film_position(point)?;
         if !(x >= 0.0 && y >= 0.0 && x < f64::from(self.width) && y < f64::from(self.height)) {
             return None;
         }
+        let offset = point - self.position;
         let distance = offset.length();
-        let cos = depth / distance;
+        let cos = offset.dot(self.forward) / distance;
         Some(Projected {
             pixel: y as u32 * self.width + x as u32,
             to_camera: -offset / distance,

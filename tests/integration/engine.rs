@@ -1,10 +1,12 @@
 //! The engine: drafts first, newest scene wins, pause, restart, failures.
 
 use crate::support::scene;
+use crossbeam_channel::{Receiver, Sender, bounded};
 use glam::DVec3;
 use patchlight::engine::{Command, Engine, EngineSettings, Frame, Session, Status};
+use patchlight::film::LinearImage;
 use patchlight::math::Rgb;
-use patchlight::scene::{Emitter, Light, SceneFile};
+use patchlight::scene::{Emitter, Light, SceneFile, Shape};
 use patchlight::transport::Cancel;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -59,25 +61,43 @@ fn frame_where(engine: &Engine, condition: impl Fn(&Frame) -> bool) -> Arc<Frame
     wait_for(|| engine.newest_frame().filter(|frame| condition(frame)))
 }
 
+/// An engine that waits at each frame until the test has looked, so that the test sees every one.
+struct Watched {
+    called: Receiver<()>,
+    look: Sender<()>,
+    engine: Engine,
+}
+
+impl Watched {
+    fn start() -> Self {
+        let (call, called) = bounded(0);
+        let (look, looked) = bounded::<()>(0);
+        let wake = move || {
+            // Both fail once the test is over.
+            let _looked = call.send(()).is_ok() && looked.recv().is_ok();
+        };
+        let engine = Engine::start(EngineSettings { threads: Some(2), seed: 1 }, wake).expect("threads");
+        Self { called, look, engine }
+    }
+
+    /// All frames up to the first for which the condition holds.
+    fn frames_until(&mut self, condition: impl Fn(&Frame) -> bool) -> Vec<Arc<Frame>> {
+        let mut frames: Vec<Arc<Frame>> = Vec::new();
+        while frames.last().is_none_or(|frame| !condition(frame)) {
+            self.called.recv_timeout(PATIENCE).expect("the engine gets there");
+            frames.extend(self.engine.newest_frame());
+            self.look.send(()).expect("the engine waits");
+        }
+        frames
+    }
+}
+
 #[test]
 fn a_draft_comes_first_and_then_the_picture() {
-    // The worker waits at each call until this test has looked, so the test sees every frame.
-    let (call, called) = crossbeam_channel::bounded(0);
-    let (look, looked) = crossbeam_channel::bounded::<()>(0);
-    let wake = move || {
-        // Both fail once the test is over.
-        let _looked = call.send(()).is_ok() && looked.recv().is_ok();
-    };
-    let engine = Engine::start(EngineSettings { threads: Some(2), seed: 1 }, wake).expect("threads");
-    assert_eq!(engine.status(), Status::Idle);
-    engine.send(Command::Show(room(0.5)));
-    let mut frames = Vec::new();
-    while frames.last().is_none_or(|frame: &Arc<Frame>| frame.draft || frame.stats.error_estimate.is_none()) {
-        called.recv_timeout(PATIENCE).expect("the engine gets there");
-        frames.extend(engine.newest_frame());
-        look.send(()).expect("the engine waits");
-    }
-    drop((called, look));
+    let mut engine = Watched::start();
+    assert_eq!(engine.engine.status(), Status::Idle);
+    engine.engine.send(Command::Show(room(0.5)));
+    let frames = engine.frames_until(|frame| !frame.draft && frame.stats.error_estimate.is_some());
     let size = |frame: &Frame| (frame.image.width, frame.image.height);
     let (drafts, pictures) = frames.split_at(frames.iter().take_while(|frame| frame.draft).count());
     assert_eq!(drafts.first().map(|frame| size(frame)), Some((16, 12)), "the first frame is a coarse draft");
@@ -109,6 +129,78 @@ fn pictures_appear_during_a_fast_drag() {
     }
     assert!(shown >= 5, "{shown} pictures in a drag of 60 edits");
     assert_eq!(frame_where(&engine, |frame| !frame.draft).generation, 60);
+}
+
+/// The first frame after an edit of a picture that has converged for a while, and the picture before.
+fn edited(edit: impl FnOnce(&mut SceneFile)) -> [Arc<Frame>; 2] {
+    let mut engine = Watched::start();
+    engine.engine.send(Command::Show(room(0.5)));
+    let before = engine.frames_until(|frame| frame.iteration >= 20);
+    let mut file = room(0.5).as_ref().clone();
+    edit(&mut file);
+    engine.engine.send(Command::Show(Arc::new(file)));
+    let after = engine.frames_until(|frame| frame.generation == 2);
+    [before, after].map(|frames| frames.last().expect("there are frames").clone())
+}
+
+/// The mean relative difference between the red values of two pictures in the rows from `first` on.
+fn difference(a: &Frame, b: &Frame, first: usize) -> f32 {
+    let pixels = a.shown().pixels.iter().zip(&b.shown().pixels).skip(first * 64);
+    let pairs: Vec<_> = pixels.map(|(a, b)| (a.x, b.x)).collect();
+    pairs.iter().map(|(a, b)| (a - b).abs()).sum::<f32>() / pairs.iter().map(|(a, _)| a).sum::<f32>()
+}
+
+/// The ball becomes smaller, and more of the floor's light comes from it.
+#[test]
+fn the_picture_before_an_edit_stands_in_for_what_has_not_changed() {
+    let [before, after] = edited(|file| {
+        let Shape::Sphere { radius, .. } = &mut file.scene.objects[0].shape else { panic!("the ball comes first") };
+        *radius = 0.45;
+    });
+    assert!(after.draft && after.image.width == 64, "all pixels at once");
+    let below = difference(&before, &after, 44);
+    assert!(below > 0.0 && below < 0.05, "the floor in front is as before: {below}");
+}
+
+#[test]
+fn brighter_light_makes_the_picture_before_brighter() {
+    let [before, after] = edited(|file| {
+        let Emitter::Point { intensity, .. } = &mut file.scene.lights[0].emitter else { panic!("a point") };
+        *intensity *= 2.0;
+    });
+    let brighter = Frame {
+        image: Arc::new(LinearImage {
+            pixels: before.shown().pixels.iter().map(|p| 2.0 * *p).collect(),
+            ..*before.image.as_ref()
+        }),
+        ..before.as_ref().clone()
+    };
+    let difference = difference(&brighter, &after, 44);
+    assert!(difference < 0.02, "{difference}");
+}
+
+#[test]
+fn a_camera_that_moves_sees_what_it_saw_before_from_elsewhere() {
+    let [before, after] = edited(|file| file.scene.camera.position += DVec3::new(0.2, 0.0, 0.0));
+    assert!(after.draft && after.image.width == 64, "all pixels at once");
+    let mut moved = room(0.5).as_ref().clone();
+    moved.scene.camera.position += DVec3::new(0.2, 0.0, 0.0);
+    let mut session = Session::prepare(&moved, 2, None).expect("the scene can be prepared");
+    (0..20).for_each(|_| session.advance(Cancel::NEVER).expect("never cancelled"));
+    let truth = session.frame(2);
+    let [now, then] = [&after, &before].map(|frame| difference(&truth, frame, 40));
+    assert!(now < 0.5 * then, "{now} instead of {then}");
+}
+
+/// A draft would be coarse if there was no picture before: a restart begins without one.
+#[test]
+fn a_restart_begins_without_the_picture_before() {
+    let engine = engine();
+    engine.send(Command::Show(room(0.5)));
+    frame_where(&engine, |frame| frame.iteration >= 2);
+    engine.send(Command::Restart);
+    let frame = frame_where(&engine, |frame| frame.generation == 2 && !frame.draft);
+    assert!(frame.preview.is_none());
 }
 
 /// An engine that holds a picture.

@@ -4,8 +4,12 @@ use crate::support::{HEAD, mean, session, world};
 use glam::DVec3;
 use patchlight::engine::FilmSums;
 use patchlight::geometry::Primitive;
-use patchlight::transport::{Cancel, PassInput, Photon, Plan, camera_pass, caustic_photon_pass, global_photon_pass};
+use patchlight::math::Rgb;
+use patchlight::transport::{
+    Cancel, DraftSize, PassInput, Photon, Plan, camera_pass, caustic_photon_pass, global_photon_pass,
+};
 use patchlight::world::World;
+use std::sync::Arc;
 
 fn caustic_photons(world: &World, iterations: u64) -> Vec<Photon> {
     let plan = Plan::new(world);
@@ -172,11 +176,29 @@ fn a_cancelled_iteration_leaves_the_film_unchanged() {
 fn a_draft_leaves_the_film_unchanged_and_resembles_the_picture() {
     let session = session(&mixed(), 32);
     let before = session.film().clone();
-    let draft = session.draft(7, 2, Cancel::NEVER).expect("never cancelled");
+    let draft = session.draft(DraftSize { coarseness: 2, thinning: 4 }, None, Cancel::NEVER).expect("never cancelled");
     assert_eq!(*session.film(), before);
-    assert!(draft.draft && draft.generation == 7 && draft.iteration == 0);
     assert_eq!((draft.image.width, draft.image.height), (20, 15));
     let ratio = mean(&draft.image) / mean(&session.film().image());
     // 300 pixels with one sample each, edges and noise included.
     assert!((ratio - 1.0).abs() < 0.2, "{ratio}");
+}
+
+#[test]
+fn a_draft_of_some_pixels_has_their_direct_light_and_leaves_out_the_others() {
+    let room = "[[object]]\nname = \"room\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 5\nmaterial = \"grey\"
+        [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = [1, 2, 3]\n";
+    let session = session(&format!("{HEAD}{room}"), 0);
+    let whole = session.draft(DraftSize::FULL, None, Cancel::NEVER).expect("never cancelled");
+    let chosen: Arc<[bool]> = (0..whole.sharp.len()).map(|pixel| pixel % 7 < 3).collect();
+    let some = session.draft(DraftSize::FULL, Some(chosen.clone()), Cancel::NEVER).expect("never cancelled");
+    assert!(some.stats.rays < whole.stats.rays);
+    for (index, is_chosen) in chosen.iter().enumerate() {
+        let expected = if *is_chosen { whole.sharp[index] } else { Rgb::ZERO };
+        assert!((some.sharp[index] - expected).length() <= 1e-4 * expected.length(), "{index}");
+        assert_eq!(
+            some.first_hits[index].depth,
+            if *is_chosen { whole.first_hits[index].depth } else { f32::INFINITY }
+        );
+    }
 }

@@ -28,7 +28,7 @@ impl Editor {
         self.poll_preferences(ctx);
         self.poll_watch(ctx);
         if let Some(frame) = self.rendering.frame() {
-            self.display.show(ctx, &frame.image, &self.viewpoint.seen().scene.film);
+            self.display.show(ctx, frame.shown(), &self.viewpoint.seen().scene.film);
         }
         self.display.poll(ctx);
     }

@@ -1,6 +1,6 @@
 //! Results of the camera pass and the gather pass by pixel: of one band of rows, and of the whole film.
 
-use super::camera::CameraBatch;
+use super::camera::{CameraBatch, FirstHit};
 use super::gathered::Gathered;
 use super::input::PassInput;
 use super::lobe_reuse::{lobe_samples, reuse_lobes};
@@ -17,12 +17,16 @@ use crate::transport::photons::path_blocks::concat;
 pub struct Band {
     /// Radiance from photons, for each pixel.
     photons: Vec<Rgb>,
+    /// The part of it that is interreflection, for each pixel.
+    interreflection: Vec<Rgb>,
     /// Camera samples, for each pixel.
     samples: Vec<PixelSamples>,
     /// Bandwidth differences, for each pixel.
     differences: Vec<BandwidthDifference>,
     /// Samples of Phong lobes, for each pixel; empty where no pixel reuses any.
     lobes: Vec<Option<LobeSample>>,
+    /// In a draft, where the first ray of each pixel ended.
+    first_hits: Vec<FirstHit>,
 }
 
 /// One iteration's contribution to the film.
@@ -30,10 +34,14 @@ pub struct Band {
 pub struct Contribution {
     /// Radiance from photons, for each pixel of the film, row by row.
     pub photons: Vec<Rgb>,
+    /// The part of it that is interreflection, without the light in Phong lobes.
+    pub interreflection: Vec<Rgb>,
     /// Samples of emission and direct light, for each pixel of the film.
     pub samples: Vec<PixelSamples>,
     /// Bandwidth differences, for each pixel of the film; 0 where not measured.
     pub differences: Vec<BandwidthDifference>,
+    /// In a draft, where the first ray of each pixel ended. Otherwise empty.
+    pub first_hits: Vec<FirstHit>,
     /// What became of the flux of the photon paths.
     pub energy: Energy,
 }
@@ -43,7 +51,7 @@ impl Band {
     /// points. Light that a directly seen Phong lobe shows goes to the lobe's sample where neighbours reuse it.
     pub fn new(input: &PassInput, rows: &Rows, seen: CameraBatch, gathered: &[Gathered]) -> Self {
         let (pixels, first) = (seen.samples.len(), rows.start * input.plan.camera.width);
-        let mut photons = vec![Rgb::ZERO; pixels];
+        let (mut photons, mut interreflection) = (vec![Rgb::ZERO; pixels], vec![Rgb::ZERO; pixels]);
         let mut differences = vec![BandwidthDifference::default(); pixels];
         let mut lobes = lobe_samples(input, &seen.visible_points, rows);
         for (point, found) in seen.visible_points.iter().zip(gathered) {
@@ -51,10 +59,13 @@ impl Band {
             differences[index] += found.difference;
             match lobes.get_mut(index) {
                 Some(Some(lobe)) if !point.seen_directly => lobe.radiance += found.radiance,
-                _ => photons[index] += found.radiance,
+                _ => {
+                    photons[index] += found.radiance;
+                    interreflection[index] += found.interreflection;
+                }
             }
         }
-        Self { photons, samples: seen.samples, differences, lobes }
+        Self { photons, interreflection, samples: seen.samples, differences, lobes, first_hits: seen.first_hits }
     }
 }
 
@@ -62,7 +73,7 @@ impl Contribution {
     /// Joins the bands of an iteration, from the top of the film down, for a film of this width (pixels), reuses their lobe samples among
     /// neighbours, and adds the splats.
     pub fn new(bands: &[Band], splats: &[Splat], width: u32, energy: Energy) -> Self {
-        let ((mut photons, samples), differences) = rayon::join(
+        let ((mut photons, samples), (differences, interreflection)) = rayon::join(
             || {
                 let mut photons = concat(bands, |band| &band.photons);
                 for splat in splats {
@@ -70,10 +81,11 @@ impl Contribution {
                 }
                 (photons, concat(bands, |band| &band.samples))
             },
-            || concat(bands, |band| &band.differences),
+            || (concat(bands, |band| &band.differences), concat(bands, |band| &band.interreflection)),
         );
         reuse_lobes(bands.iter().map(|band| band.lobes.as_slice()), width, &mut photons);
-        Self { photons, samples, differences, energy }
+        let first_hits = concat(bands, |band| &band.first_hits);
+        Self { photons, interreflection, samples, differences, first_hits, energy }
     }
 }
 

@@ -154,6 +154,7 @@ impl Gatherer<'_> {
             };
             if shows {
                 found.radiance += light;
+                found.interreflection += if kind == MapKind::Caustic { Rgb::ZERO } else { light };
             }
             if compares {
                 let wider = self.radiance(l, kind, stack, point, polygon.as_ref(), WIDER * radius);

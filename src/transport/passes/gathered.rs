@@ -9,6 +9,8 @@ use crate::transport::density::BandwidthDifference;
 pub struct Gathered {
     /// Radiance that the point adds to its pixel.
     pub radiance: Rgb,
+    /// The part of this radiance that is interreflection.
+    pub interreflection: Rgb,
     /// The bandwidth difference of this radiance; 0 where it is not measured.
     pub difference: BandwidthDifference,
 }

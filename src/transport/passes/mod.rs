@@ -25,7 +25,7 @@ mod lobe_reuse;
 mod lobe_sample;
 
 pub use band::{Band, Contribution};
-pub use camera::{CameraBatch, camera_pass};
+pub use camera::{CameraBatch, FirstHit, camera_pass};
 pub use caustic_photons::caustic_photon_pass;
 pub use gather::gather;
 pub use gathered::{Gathered, GatheredBatch};

@@ -3,25 +3,39 @@
 use super::paths::allocate;
 use super::radii::DRAFT_RADIUS;
 use super::render_plan::{CausticPlan, Plan};
+use std::sync::Arc;
 
-/// Least and most photon paths of a draft for caustics, of which there is one per pixel in between: fewer leave too much noise, more take
-/// longer than the frame that a draft may take.
-const CAUSTIC_PATHS: [f64; 2] = [4096.0, 32_768.0];
-/// Least and most photon paths of a draft for interreflection, for the same reasons.
-const GLOBAL_PATHS: [f64; 2] = [1024.0, 8192.0];
-/// Photon paths of a draft for interreflection, for each pixel: interreflection is smooth, so a draft blurs it instead.
+/// Photon paths of a draft for caustics: more would take longer than what they show is worth.
+const CAUSTIC_PATHS: f64 = 32_768.0;
+/// Photon paths of a draft for interreflection: it is smooth, so a draft blurs it instead.
+const GLOBAL_PATHS: f64 = 8192.0;
+/// Photon paths for interreflection and pixel for which the radius of a draft is made.
 const GLOBAL_PATHS_PER_PIXEL: f64 = 0.25;
 
+/// How much a draft leaves out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DraftSize {
+    /// It has every n-th pixel each way; at least 1.
+    pub coarseness: u32,
+    /// It has one of n photon paths; at least 1.
+    pub thinning: u32,
+}
+
+impl DraftSize {
+    /// All pixels and photon paths of a draft.
+    pub const FULL: Self = Self { coarseness: 1, thinning: 1 };
+}
+
 impl Plan {
-    /// The plan for a first picture of bounded cost: every `coarseness`-th pixel each way, and fewer photons, in discs that hold about
-    /// equally many of them for any number of pixels.
-    pub fn draft(&self, coarseness: u32) -> Self {
+    /// The plan for a first picture of bounded cost: fewer pixels, and fewer photons, in discs that hold about equally many of them for
+    /// any number of pixels.
+    pub fn draft(&self, DraftSize { coarseness, thinning }: DraftSize) -> Self {
         let size = |pixels: u32| pixels.div_ceil(coarseness.max(1)).max(1);
         let camera = self.camera.resized(size(self.camera.width), size(self.camera.height));
         let pixels = camera.pixel_count() as f64;
         let fewer = |paths: &[u64], total: f64| allocate(paths.iter().map(|&p| p as f64).collect(), total);
-        let caustic_paths = pixels.clamp(CAUSTIC_PATHS[0], CAUSTIC_PATHS[1]);
-        let global_paths = (GLOBAL_PATHS_PER_PIXEL * pixels).clamp(GLOBAL_PATHS[0], GLOBAL_PATHS[1]);
+        let [caustic_paths, global_paths] =
+            [CAUSTIC_PATHS, GLOBAL_PATHS].map(|paths| paths / f64::from(thinning.max(1)));
         let wider = |paths_per_pixel: f64, paths: f64| (paths_per_pixel * pixels / paths).sqrt().max(1.0);
         let caustic_wider = wider(1.0, caustic_paths);
         let global_radius = DRAFT_RADIUS * wider(GLOBAL_PATHS_PER_PIXEL, global_paths);
@@ -42,5 +56,10 @@ impl Plan {
             samples: None,
             ..self.clone()
         }
+    }
+
+    /// The plan of a draft that leaves out some pixels; `chosen` holds one value for each pixel of the draft.
+    pub fn of_pixels(self, chosen: Arc<[bool]>) -> Self {
+        Self { draft_pixels: Some(chosen), ..self }
     }
 }

@@ -39,6 +39,7 @@ mod samples;
 mod unseen_light;
 
 pub use component::Component;
+pub use draft::DraftSize;
 pub(in crate::transport) use interleaved_grid::InterleavedGrid;
 pub use measured::MeasuredPlan;
 pub use notes::{PlanItem, PlanNote};

@@ -37,6 +37,7 @@ impl Plan {
             notes: notes.0,
             radiance_of_path: RadianceOfPath::default(),
             is_draft: false,
+            draft_pixels: None,
             bandwidth: None,
             samples: None,
             is_kept: false,

@@ -36,6 +36,8 @@ pub struct Plan {
     pub(super) radiance_of_path: RadianceOfPath,
     /// Whether the plan is for a quick first picture.
     pub(super) is_draft: bool,
+    /// The pixels of a draft; `None` for all.
+    pub(super) draft_pixels: Option<Arc<[bool]>>,
     /// Measured radii, from the first refinement on.
     pub(super) bandwidth: Option<Arc<Bandwidth>>,
     /// Measured sample counts, from the first refinement on.

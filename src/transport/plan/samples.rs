@@ -35,11 +35,11 @@ impl Plan {
         start..start + (count as f64 * self.weight(iteration)) as u64
     }
 
-    /// Indices of the samples of an iteration in a pixel's sequence; at least one.
+    /// Indices of the samples of an iteration in a pixel's sequence; none in a pixel that a draft leaves out, otherwise at least one.
     #[inline]
     pub(in crate::transport) fn camera_samples(&self, pixel: u32, iteration: u64) -> Range<u64> {
         if self.is_draft {
-            return 0..1;
+            return 0..u64::from(self.draft_pixels.as_ref().is_none_or(|chosen| chosen[pixel as usize]));
         }
         if let Some(samples) = &self.samples {
             return samples.at(pixel, iteration);

@@ -12,8 +12,24 @@ pub struct CameraBatch {
     pub facets: Vec<Facet>,
     /// Samples of emission and direct light: one value for each pixel of the rows, row by row.
     pub samples: Vec<PixelSamples>,
+    /// In a draft, where the first ray of each pixel ended. Otherwise empty.
+    pub first_hits: Vec<FirstHit>,
     /// Work done.
     pub counters: Counters,
+}
+
+/// Where the first ray of a pixel ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstHit {
+    /// The length of the ray, scene units; infinite where it met nothing.
+    pub depth: f32,
+    /// Whether the surface looks the same from everywhere: it neither mirrors nor refracts, and has no Phong lobe.
+    pub is_matte: bool,
+}
+
+impl FirstHit {
+    /// Nothing was met.
+    pub(super) const NONE: Self = Self { depth: f32::INFINITY, is_matte: false };
 }
 
 impl Counted for CameraBatch {

@@ -14,5 +14,5 @@ mod pixel;
 mod sampling;
 mod tracer;
 
-pub use batch::CameraBatch;
+pub use batch::{CameraBatch, FirstHit};
 pub use sampling::camera_pass;

@@ -1,6 +1,6 @@
 //! All camera samples of a pixel in an iteration, pixel by pixel.
 
-use super::batch::CameraBatch;
+use super::batch::{CameraBatch, FirstHit};
 use super::pixel::Pixel;
 use super::tracer::CameraTracer;
 use crate::geometry::Hit;
@@ -24,7 +24,9 @@ pub fn camera_pass(input: &PassInput, rows: &Rows) -> Option<CameraBatch> {
     let PassInput { world, plan, iteration, .. } = *input;
     let width = plan.camera.width;
     let pixels = rows.len() * width as usize;
-    let batch = CameraBatch { samples: vec![PixelSamples::default(); pixels], ..CameraBatch::default() };
+    let samples = vec![PixelSamples::default(); pixels];
+    let first_hits = if plan.is_draft() { vec![FirstHit::NONE; pixels] } else { Vec::new() };
+    let batch = CameraBatch { samples, first_hits, ..CameraBatch::default() };
     let mut tracer = CameraTracer::new(world, plan, batch);
     let mut pixel = Pixel::new();
     for left in (0..width).step_by(TILE as usize) {
@@ -41,6 +43,11 @@ pub fn camera_pass(input: &PassInput, rows: &Rows) -> Option<CameraBatch> {
                 let count = plan.camera_samples(pixel.index, iteration).count();
                 let own = rest.split_off_mut(..count).unwrap_or_default();
                 let index = ((row - rows.start) * width + column) as usize;
+                let Some(first) = own.first() else { continue };
+                if let (Some(first_hit), Some(hit)) = (tracer.batch.first_hits.get_mut(index), first.hit) {
+                    let is_matte = !world.is_specular(hit.primitive) && !world.is_glossy(hit.primitive);
+                    *first_hit = FirstHit { depth: hit.t as f32, is_matte };
+                }
                 tracer.batch.samples[index] = sample_pixel(input, &mut tracer, &mut pixel, own);
             }
         }
@@ -65,7 +72,10 @@ fn trace_first_rays(input: &PassInput, row: u32, columns: Range<u32>) -> Vec<Fir
         .map(|(column, index)| {
             let pixel = u64::from(row * camera.width + column);
             let mut sampler = input.sampler(Stream::Camera, pixel, index);
-            let ray = camera.ray(DVec2::new(f64::from(column), f64::from(row)) + sampler.next_2d());
+            let within_pixel = sampler.next_2d();
+            // The one sample of a draft stands for the whole pixel.
+            let within_pixel = if plan.is_draft() { DVec2::splat(0.5) } else { within_pixel };
+            let ray = camera.ray(DVec2::new(f64::from(column), f64::from(row)) + within_pixel);
             FirstRay { hit: None, sampler, ray }
         })
         .collect();

@@ -1,0 +1,40 @@
+//! A draft: a picture of few pixels, made at bounded cost.
+
+use crate::engine::frame::Stats;
+use crate::film::LinearImage;
+use crate::math::Rgb;
+use crate::transport::{DraftSize, FirstHit};
+use std::sync::Arc;
+
+/// A picture with every n-th pixel each way.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// How much it leaves out.
+    pub size: DraftSize,
+    /// Linear radiance; black in pixels that were left out.
+    pub image: Arc<LinearImage>,
+    /// The part of each pixel that is no interreflection: its edges are sharp.
+    pub sharp: Vec<Rgb>,
+    /// Where the first ray of each pixel ended.
+    pub first_hits: Vec<FirstHit>,
+    /// Work done.
+    pub stats: Stats,
+}
+
+impl Draft {
+    /// Pixels per row, and rows.
+    pub(super) fn pixel_size(&self) -> [u32; 2] {
+        [self.image.width, self.image.height]
+    }
+}
+
+#[cfg(test)]
+impl Draft {
+    /// A draft of these pixels, row by row, of which the fraction `sharp` is no interreflection, at this depth.
+    pub(super) fn of_pixels(width: u32, pixels: Vec<Rgb>, sharp: f32, depth: f32) -> Self {
+        let sharp = pixels.iter().map(|pixel| sharp * *pixel).collect();
+        let first_hits = vec![FirstHit { depth, is_matte: true }; pixels.len()];
+        let image = LinearImage { width, height: pixels.len() as u32 / width, pixels };
+        Self { size: DraftSize::FULL, image: Arc::new(image), sharp, first_hits, stats: Stats::default() }
+    }
+}

@@ -1,0 +1,163 @@
+//! A picture for the screen: the draft of a scene, and the picture before the edit where that stands in for it.
+
+use super::change::Change;
+use super::grid::{Enlarged, sample};
+use super::image::Draft;
+use super::reprojection::Reprojection;
+use crate::film::LinearImage;
+use crate::math::Rgb;
+use crate::world::Camera;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Iterations, as full ones, after which the new picture stands for itself.
+const FADING_WEIGHT: f64 = 16.0;
+/// Trust from which on a pixel of the picture before needs no pixel of a draft.
+const FULL_TRUST: f32 = 0.95;
+
+/// The picture before an edit, with a draft of its scene.
+pub(in crate::engine) struct Before<'a> {
+    pub(in crate::engine) image: &'a LinearImage,
+    /// The iterations in the picture, as full ones.
+    pub(in crate::engine) weight: f64,
+    /// The camera with the film's grid.
+    pub(in crate::engine) camera: Camera,
+    pub(in crate::engine) draft: &'a Draft,
+}
+
+/// A picture for the screen that the picture before an edit stands in for.
+#[derive(Clone, Debug)]
+pub(in crate::engine) struct Preview {
+    pub(in crate::engine) image: Arc<LinearImage>,
+    /// The picture before the edit, changed as the draft says, and for each pixel, how far it stands in, from 0 to 1.
+    stand_in: Arc<[(Rgb, f32)]>,
+    /// The iterations in the picture before the edit.
+    weight: f64,
+}
+
+impl Before<'_> {
+    /// The picture after the edit for a camera with the film's grid, of which there is a draft of the same size as that of the picture
+    /// before.
+    pub(in crate::engine) fn preview(&self, camera: Camera, after: &Draft) -> Preview {
+        let (own, before, old) = (self.camera, self.draft, self.image);
+        let stand_in = if own == camera {
+            composed(old, Change::between(before, after).applied(old))
+        } else {
+            let reprojection = Reprojection::new([own, camera], [before, after]);
+            let pixel = |x: u32, y: u32| {
+                let then = reprojection.before(x as f32 + 0.5, y as f32 + 0.5);
+                then.map_or((Rgb::ZERO, 0.0), |[x, y]| (sample(old, x, y), 1.0))
+            };
+            composed(old, |y| (0..old.width).map(|x| pixel(x, y)).collect())
+        };
+        Preview { image: Arc::new(mixed(old, &stand_in, after)), stand_in: stand_in.into(), weight: self.weight }
+    }
+}
+
+impl Preview {
+    /// The pixels of a draft of this coarseness that the preview lacks.
+    pub(in crate::engine) fn doubtful(&self, coarseness: u32) -> Arc<[bool]> {
+        let (width, height) = (self.image.width.div_ceil(coarseness), self.image.height.div_ceil(coarseness));
+        let mut doubtful = vec![false; width as usize * height as usize];
+        let doubts = self.stand_in.iter().zip(0..).filter(|((_, trust), _)| *trust < FULL_TRUST);
+        for (_, index) in doubts {
+            let (x, y) = (index % self.image.width, index / self.image.width);
+            // The pixels of the draft between whose middles the pixel lies, if the draft is coarse.
+            let reach = |at: u32, count: u32| {
+                let (from, to) = (at.saturating_sub(coarseness / 2), at + coarseness / 2);
+                from / coarseness..(to / coarseness + 1).min(count)
+            };
+            for row in reach(y, height) {
+                for column in reach(x, width) {
+                    doubtful[(row * width + column) as usize] = true;
+                }
+            }
+        }
+        doubtful.into()
+    }
+
+    /// The fraction of the pixels that the preview lacks.
+    pub(in crate::engine) fn doubtful_fraction(&self) -> f64 {
+        let doubtful = self.stand_in.iter().filter(|(_, trust)| *trust < FULL_TRUST).count();
+        doubtful as f64 / self.stand_in.len() as f64
+    }
+
+    /// The picture with the doubtful pixels of a finer draft.
+    pub(in crate::engine) fn refined(&self, draft: &Draft) -> Self {
+        Self { image: Arc::new(mixed(&self.image, &self.stand_in, draft)), ..self.clone() }
+    }
+
+    /// The picture together with that of the scene after the edit after iterations of this weight; `None` once that stands for itself.
+    pub(in crate::engine) fn with(&self, image: &LinearImage, weight: f64) -> Option<LinearImage> {
+        let fading = 1.0 - weight / FADING_WEIGHT;
+        if fading <= 0.0 {
+            return None;
+        }
+        let most = (fading * self.weight / (self.weight + weight)) as f32;
+        let pixels = image.pixels.iter().zip(self.stand_in.iter());
+        let pixels = pixels.map(|(new, (old, trust))| new.lerp(old.max(Rgb::ZERO), trust * most)).collect();
+        Some(LinearImage { pixels, ..*image })
+    }
+}
+
+/// A picture of the size of `film`: the picture that stands in where it is trusted, the draft elsewhere.
+fn mixed(film: &LinearImage, stand_in: &[(Rgb, f32)], draft: &Draft) -> LinearImage {
+    let size = [film.width, film.height];
+    let drafted = Enlarged::new(&draft.image.pixels, draft.pixel_size(), size, Rgb::lerp);
+    let pixels = composed(film, |y| {
+        let stand_in = &stand_in[(y * film.width) as usize..][..film.width as usize];
+        drafted.row(y).zip(stand_in).map(|(drafted, (old, trust))| drafted.lerp(old.max(Rgb::ZERO), *trust)).collect()
+    });
+    LinearImage { pixels, ..*film }
+}
+
+/// The values of the pixels of an image of the same size as `like`, of which `row` returns one row.
+fn composed<T: Send + Clone>(like: &LinearImage, row: impl Fn(u32) -> Vec<T> + Sync) -> Vec<T> {
+    (0..like.height).into_par_iter().map(&row).collect::<Vec<_>>().concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image(values: [f32; 3]) -> LinearImage {
+        LinearImage { width: 3, height: 1, pixels: values.map(Rgb::splat).into() }
+    }
+
+    fn preview() -> Preview {
+        let stand_in = Arc::new([(1.0, 1.0), (2.0, 0.5), (3.0, 0.0)].map(|(value, trust)| (Rgb::splat(value), trust)));
+        Preview { image: Arc::new(image([1.0, 2.0, 3.0])), stand_in, weight: 30.0 }
+    }
+
+    fn values(image: &LinearImage) -> Vec<f32> {
+        image.pixels.iter().map(|pixel| pixel.x).collect()
+    }
+
+    #[test]
+    fn the_new_picture_takes_over_where_the_old_one_is_trusted_and_at_once_elsewhere() {
+        let value = |weight| preview().with(&image([5.0; 3]), weight).map(|image| values(&image));
+        let soon = value(0.1).unwrap();
+        assert!(soon[0] < 1.1 && (3.4..3.6).contains(&soon[1]) && soon[2] == 5.0, "{soon:?}");
+        let later = value(10.0).unwrap();
+        assert!(soon[0] < later[0] && later[0] < 5.0, "{later:?}");
+        assert_eq!(value(FADING_WEIGHT), None);
+    }
+
+    #[test]
+    fn a_draft_with_all_pixels_fills_in_the_doubtful_ones() {
+        assert_eq!(*preview().doubtful(1), [false, true, true]);
+        assert!((preview().doubtful_fraction() - 2.0 / 3.0).abs() < 1e-9);
+        let draft = Draft::of_pixels(3, vec![Rgb::splat(9.0); 3], 1.0, 1.0);
+        assert_eq!(values(&preview().refined(&draft).image), [1.0, 5.5, 9.0]);
+    }
+
+    #[test]
+    fn a_coarse_draft_has_all_pixels_between_which_a_doubtful_pixel_lies() {
+        let trust = |index: u32| if index == 5 * 16 + 7 { 0.0 } else { 1.0 };
+        let stand_in: Arc<[_]> = (0..16 * 16).map(|index| (Rgb::ONE, trust(index))).collect();
+        let preview = Preview { image: Arc::new(LinearImage::black(16, 16)), stand_in, weight: 1.0 };
+        let doubtful = preview.doubtful(4);
+        let chosen: Vec<usize> = (0..16).filter(|index| doubtful[*index]).collect();
+        assert_eq!(chosen, [1, 2, 5, 6], "around (7, 5)");
+    }
+}

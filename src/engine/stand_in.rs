@@ -1,0 +1,46 @@
+//! The scene before an edit and its picture, which stands in for the light that the edit has hardly changed.
+
+use super::draft::Before;
+use super::session::Session;
+use crate::film::LinearImage;
+use crate::scene::SceneFile;
+use crate::transport::DraftSize;
+use crate::world::Camera;
+use std::sync::Arc;
+
+/// A scene before an edit, and its picture.
+pub(super) struct StandIn {
+    scene: Arc<SceneFile>,
+    session: Session,
+    image: LinearImage,
+    /// The iterations in the picture, as full ones.
+    pub(super) weight: f64,
+}
+
+impl StandIn {
+    /// The picture that the session of a scene has so far.
+    pub(super) fn new(scene: Arc<SceneFile>, session: Session) -> Self {
+        let (image, weight) = (session.film().image(), session.film().weight());
+        Self { scene, image, weight, session: session.without_film() }
+    }
+
+    /// Whether the picture may stand in for one of this scene, whose camera has the film's grid: either the camera sees the scene from the
+    /// same place, or nothing else is different.
+    pub(super) fn fits(&self, scene: &SceneFile, camera: Camera) -> bool {
+        let own = self.session.camera();
+        let with_same_camera = || {
+            let mut scene = scene.clone();
+            scene.scene.camera = self.scene.scene.camera;
+            scene == *self.scene
+        };
+        own == camera || ((own.width, own.height) == (camera.width, camera.height) && with_same_camera())
+    }
+
+    /// The picture, with a draft of its scene of this size; the draft is kept for the next call.
+    pub(super) fn with_draft(&mut self, size: DraftSize) -> Option<Before<'_>> {
+        let camera = self.session.camera();
+        // Fails only if it is cancelled.
+        let draft = self.session.whole_draft(size)?;
+        Some(Before { image: &self.image, weight: self.weight, camera, draft })
+    }
+}
