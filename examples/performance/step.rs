@@ -54,7 +54,7 @@ impl Source {
                     "cargo run --release --features flip -- bench --suite benches/suite/{name}.toml --output docs/performance"
                 )
             }
-            Self::Tables(name) => format!("cargo bench --bench {name}"),
+            Self::Tables(name) => format!("cargo bench --features flip --bench {name}"),
             Self::Criterion(name) => format!("cargo bench --bench {name} -- --noplot"),
         }
     }

@@ -1,7 +1,7 @@
 use super::{ImageError, LinearImage, ToneMap};
 use crate::file::{read_limited, write_whole};
 use crate::scene::Film;
-use image::{ColorType, ImageEncoder, ImageReader, codecs::png::PngEncoder};
+use image::{ImageReader, codecs::png::PngEncoder};
 use std::{
     io::{self, Cursor},
     path::Path,
@@ -18,9 +18,7 @@ const MAX_MASK_BYTES: u64 = 1 << 30;
 pub fn write_png(path: &Path, image: &LinearImage, tone: &ToneMap) -> Result<(), ImageError> {
     let failed = |source| ImageError::Write { file: path.to_owned(), source };
     let mut bytes = Vec::new();
-    PngEncoder::new(&mut bytes)
-        .write_image(tone.map_image(image).as_flattened(), image.width, image.height, ColorType::Rgb8.into())
-        .map_err(|e| failed(io::Error::other(e)))?;
+    tone.map_image(image).write_with_encoder(PngEncoder::new(&mut bytes)).map_err(|e| failed(io::Error::other(e)))?;
     write_whole(path, &bytes).map_err(failed)
 }
 

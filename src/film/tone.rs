@@ -1,5 +1,6 @@
 use super::LinearImage;
 use crate::{math::Rgb, scene::ToneCurve};
+use image::RgbImage;
 
 /// Radiance below this is black in 8 bits: half a step of the sRGB curve is 1.5e-4.
 const DARKEST: f32 = 1.0 / 8192.0;
@@ -34,9 +35,12 @@ impl ToneMap {
         (radiance * self.gain).to_array().map(|x| self.look_up(x))
     }
 
-    /// The 8-bit sRGB colours of all pixels, row by row from the top.
-    pub fn map_image(&self, image: &LinearImage) -> Vec<[u8; 3]> {
-        image.pixels.iter().map(|pixel| self.map(*pixel)).collect()
+    /// The image in 8-bit sRGB colours.
+    pub fn map_image(&self, image: &LinearImage) -> RgbImage {
+        RgbImage::from_fn(image.width, image.height, |x, y| {
+            let index = y as usize * image.width as usize + x as usize;
+            image::Rgb(self.map(image.pixels[index]))
+        })
     }
 
     fn look_up(&self, x: f32) -> u8 {

@@ -319,7 +319,7 @@ fn displayed(name: &str, (width, height): (u32, u32)) -> Vec<u8> {
     let mut file = SceneFile::built_in(name).unwrap();
     (file.scene.film.width, file.scene.film.height) = (width, height);
     let image = advanced(Session::prepare(&file, 0, None).unwrap(), 1).film().image();
-    ToneMap::new(file.scene.film.exposure, file.scene.film.tone_curve).map_image(&image).into_flattened()
+    ToneMap::new(file.scene.film.exposure, file.scene.film.tone_curve).map_image(&image).into_raw()
 }
 
 #[test]

@@ -55,7 +55,8 @@ impl Truth {
     #[cfg(feature = "flip")]
     pub(super) fn flip(&self, image: &LinearImage, film: &Film) -> (Option<f64>, Option<f64>) {
         use crate::film::{ToneMap, flip, mean_inside};
-        let differences = flip(image, &self.reference, &ToneMap::new(film.exposure, film.tone_curve));
+        let tone = ToneMap::new(film.exposure, film.tone_curve);
+        let differences = flip(&tone.map_image(image), &tone.map_image(&self.reference));
         let inside = mean_inside(&differences, self.masks.as_ref().map(|(mask, _)| mask));
         (Some(inside), self.masks.as_ref().map(|(_, complement)| mean_inside(&differences, Some(complement))))
     }
