@@ -262,7 +262,7 @@ mod tests {
         let mut centers: Vec<DVec3> = Vec::new();
         for new in FINITE.into_iter().chain(FINITE) {
             let room = free_ball(&scene, &surfaces(&scene), aim(new));
-            let edit = new.added(&scene, &room);
+            let edit = new.added(&scene, &room, scene.camera.position);
             let near = centers.iter().position(|center| center.distance(room.center) < 0.1 * room.radius);
             assert_eq!(near, None, "{new:?} in {name} coincides with another");
             centers.push(room.center);

@@ -4,7 +4,7 @@ use super::edit::Edit;
 use super::handles::{Handle, translate_emitter, translate_shape};
 use super::kinds::{MODEL_KINDS, emitter_of_size, model_like};
 use super::names::free_name;
-use super::placement::{fitted, plane_below, way_to_copy};
+use super::placement::{facing, fitted, plane_below, way_to_copy};
 use super::selection::Item;
 use crate::geometry::Sphere;
 use crate::geometry::bezier::ControlNet;
@@ -66,15 +66,18 @@ impl NewItem {
         Self::LIGHTS.contains(&self)
     }
 
-    /// The edit that adds the item inside of `room`, a ball without other items. A plane lies below that ball.
-    pub(crate) fn added(self, scene: &Scene, room: &Sphere) -> Edit {
+    /// The edit that adds the item inside of `room`, a ball without other items, so that its upper side is seen from `eye`. A
+    /// plane lies below that ball.
+    pub(crate) fn added(self, scene: &Scene, room: &Sphere, eye: DVec3) -> Edit {
+        let turned = Transform { translate: room.center, rotate: facing(room.center, eye), ..Transform::default() };
         let shape = match self {
-            Self::Patch => Shape::Bezier(sheet(room.center, HALF_SIDE * room.radius)),
+            Self::Patch => Shape::Bezier(sheet(turned, HALF_SIDE * room.radius)),
             Self::Sphere => Shape::Sphere { center: room.center, radius: HALF_SIDE * room.radius },
             Self::Quad => {
-                let half = HALF_SIDE * room.radius;
-                let corner = room.center - half * DVec3::new(1.0, 0.0, -1.0);
-                Shape::Quad { corner, edge_u: 2.0 * half * DVec3::X, edge_v: -2.0 * half * DVec3::Z }
+                let side = 2.0 * HALF_SIDE * room.radius;
+                let turn = turned.world_from_object().matrix3;
+                let (edge_u, edge_v) = (side * turn.x_axis, -side * turn.z_axis);
+                Shape::Quad { corner: room.center - 0.5 * (edge_u + edge_v), edge_u, edge_v }
             }
             Self::Plane => plane_below(scene, room),
             Self::PointLight => return self.added_light(scene, room, "point"),
@@ -190,16 +193,15 @@ pub(crate) fn empty_scene() -> Scene {
     }];
     let ground = Shape::Plane { point: DVec3::new(0.0, -0.6, 0.0), normal: DVec3::Y, u_axis: None };
     let named = |name: &str, shape| Object { name: name.to_owned(), material: "white".to_owned(), shape, body: None };
-    scene.objects = vec![named("ground", ground), named("sheet", Shape::Bezier(sheet(DVec3::ZERO, 0.7)))];
+    scene.objects = vec![named("ground", ground), named("sheet", Shape::Bezier(sheet(Transform::default(), 0.7)))];
     scene
 }
 
-/// A gently curved patch with sides of length `2 half`.
-fn sheet(center: DVec3, half: f64) -> Bezier {
+/// A gently curved patch with sides of length `2 half`, around the origin of the object's space.
+fn sheet(transform: Transform, half: f64) -> Bezier {
     let along = |k: usize| half * (2.0 * k as f64 / 3.0 - 1.0);
     let lift = |i: usize, j: usize| if (1..3).contains(&i) && (1..3).contains(&j) { 0.6 * half } else { 0.0 };
     let points = array::from_fn(|i| array::from_fn(|j| DVec3::new(along(j), lift(i, j), along(i))));
-    let transform = Transform { translate: center, ..Transform::default() };
     Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None, uv: None }
 }
 
@@ -224,7 +226,7 @@ mod tests {
     fn new_planes_do_not_coincide() {
         let (mut scene, room) = (empty_scene(), Sphere { center: DVec3::new(0.0, 0.4, 0.0), radius: 1.0 });
         for _ in 0..3 {
-            NewItem::Plane.added(&scene, &room).apply(&mut scene);
+            NewItem::Plane.added(&scene, &room, scene.camera.position).apply(&mut scene);
         }
         let heights: Vec<f64> = scene
             .objects
@@ -236,6 +238,32 @@ mod tests {
             .collect();
         let near = |a: f64| heights.iter().filter(|b| (a - **b).abs() < 0.1).count();
         assert!(heights.len() == 4 && heights.iter().all(|&height| near(height) == 1), "{heights:?}");
+    }
+
+    #[test]
+    fn new_patches_and_quads_are_seen_from_above_at_an_angle() {
+        let (scene, room) = (empty_scene(), Sphere { center: DVec3::new(0.3, 0.4, 0.1), radius: 0.8 });
+        let eyes = [(0.0, 0.0, 5.0), (4.0, 0.4, -3.0), (0.3, 6.0, 0.1), (-2.0, 1.5, 0.0), (1.0, -1.0, 2.0)];
+        for eye in eyes.map(DVec3::from) {
+            let shape = |new: NewItem| match new.added(&scene, &room, eye) {
+                Edit::AddObject(object) => object.shape,
+                edit => panic!("{edit:?}"),
+            };
+            let Shape::Quad { corner, edge_u, edge_v } = shape(NewItem::Quad) else { panic!("a quad") };
+            let Shape::Bezier(bezier) = shape(NewItem::Patch) else { panic!("a patch") };
+            let normals = [edge_u.cross(edge_v), bezier.transform.world_from_object().matrix3.y_axis];
+            let way = (eye - room.center).normalize();
+            let sines = normals.map(|normal| normal.normalize().dot(way));
+            assert!(sines.iter().all(|sine| *sine > 0.5), "seen from {eye}: {sines:?}");
+            let center = corner + 0.5 * (edge_u + edge_v);
+            // Sums of numbers below 1.
+            assert!(center.distance(room.center) < 1e-14 && bezier.transform.translate == room.center);
+        }
+    }
+
+    #[test]
+    fn a_patch_seen_from_above_lies_flat() {
+        assert_eq!(facing(DVec3::ZERO, DVec3::new(1.0, 2.0, 1.0)), DVec3::ZERO);
     }
 
     #[test]

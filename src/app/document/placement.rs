@@ -9,6 +9,23 @@ use glam::DVec3;
 /// Planes nearer than this coincide, over the radius of the ball above them.
 const SAME_PLANE: f64 = 0.25;
 
+/// The least angle between a new patch or quad and the line from the eye to its centre, degrees.
+const LEAST_SLANT: f64 = 35.0;
+
+/// The rotation about x and y, degrees, by which a horizontal square with its centre at `center` is seen from `eye` from above and
+/// not from the edge: none where it already is.
+pub(super) fn facing(center: DVec3, eye: DVec3) -> DVec3 {
+    let way = eye - center;
+    let height = way.y.atan2(way.with_y(0.0).length()).to_degrees();
+    // Without a direction the height is 0, and the square turns towards +z.
+    if height >= LEAST_SLANT {
+        DVec3::ZERO
+    } else {
+        // Whole degrees read better in the panel.
+        DVec3::new((LEAST_SLANT - height).ceil(), way.x.atan2(way.z).to_degrees().round(), 0.0)
+    }
+}
+
 /// The horizontal plane that touches the ball from below; deeper where that plane would coincide with another.
 pub(super) fn plane_below(scene: &Scene, room: &Sphere) -> Shape {
     let heights = scene.objects.iter().filter_map(|object| match &object.shape {

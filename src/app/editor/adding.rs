@@ -11,7 +11,8 @@ impl Editor {
     /// Adds an object or a light where the camera looks.
     pub(super) fn add(&mut self, new: NewItem) {
         let room = self.room(if new.is_light() { Aim::Above } else { Aim::Middle });
-        self.document.edit(new.added(self.document.scene(), &room));
+        let eye = self.viewpoint.seen().scene.camera.position;
+        self.document.edit(new.added(self.document.scene(), &room, eye));
     }
 
     /// Adds the patches of a file where the camera looks.
