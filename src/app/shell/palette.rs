@@ -1,7 +1,7 @@
 //! The command palette: finds every action, item and example by parts of its name.
 
-use crate::app::commands::{Action, AppCommand, Next};
-use crate::app::document::{Item, NewItem, Selection};
+use crate::app::commands::{Action, AppCommand, Next, Purpose};
+use crate::app::document::{Edit, Item, NewItem, Selection, new_items};
 use crate::scene::{Scene, built_in_scenes};
 use egui::{Button, Context, Key, Modifiers, ScrollArea, TextEdit, ThemePreference, Ui};
 
@@ -97,6 +97,15 @@ fn entries(ctx: &Context, scene: &Scene) -> Vec<Entry> {
         items(scene).map(|(name, item)| plain(format!("Select {name}"), AppCommand::Select(Selection::of(item))));
     let new = NewItem::OBJECTS.into_iter().chain(NewItem::LIGHTS);
     let new = new.map(|new| plain(format!("Add {}", new.label()), AppCommand::Add(new)));
+    let materials = new_items::models().into_iter().map(|(label, model)| {
+        let add = Edit::AddMaterial(new_items::material(scene, label, model));
+        plain(format!("Add material {label}"), AppCommand::Edit(add))
+    });
+    let files = [
+        ("Add patches from a .bpt file…", Purpose::AddSurface),
+        ("Add texture from a PNG or JPEG file…", Purpose::AddTexture),
+    ];
+    let files = files.map(|(label, purpose)| plain(label.to_owned(), AppCommand::AddFrom(purpose)));
     let examples = built_in_scenes().iter().map(|example| {
         plain(format!("Open example {}", example.title), AppCommand::Leave(Next::Example(example.name)))
     });
@@ -104,7 +113,7 @@ fn entries(ctx: &Context, scene: &Scene) -> Vec<Entry> {
         .into_iter()
         .zip(["Dark theme", "Light theme", "Theme of the system"])
         .map(|(theme, label)| plain(label.to_owned(), AppCommand::Theme(theme)));
-    actions.chain(themes).chain(items).chain(new).chain(examples).collect()
+    actions.chain(themes).chain(items).chain(new).chain(materials).chain(files).chain(examples).collect()
 }
 
 /// The items of a scene with their names.
@@ -126,6 +135,18 @@ fn items(scene: &Scene) -> impl Iterator<Item = (&str, Item)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn everything_that_the_outline_adds_is_found() {
+        let entries = entries(&Context::default(), &Scene::default());
+        let has = |query: &str, wanted: fn(&AppCommand) -> bool| {
+            entries.iter().any(|entry| finds(query, &entry.label) && wanted(&entry.command))
+        };
+        assert!(has("add patch", |command| *command == AppCommand::Add(NewItem::Patch)));
+        assert!(has("bpt", |command| *command == AppCommand::AddFrom(Purpose::AddSurface)));
+        assert!(has("add texture", |command| *command == AppCommand::AddFrom(Purpose::AddTexture)));
+        assert!(has("add glass", |command| matches!(command, AppCommand::Edit(Edit::AddMaterial(_)))));
+    }
 
     #[test]
     fn words_are_found_in_any_order() {
