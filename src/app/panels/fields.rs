@@ -126,6 +126,8 @@ fn unit_ui(ui: &mut Ui, unit: &str) {
 
 /// A number rounded to the digits that fit in a field.
 fn short(value: f64, decimals: usize) -> String {
+    // Products of directions are often -0.
+    let value = if value == 0.0 { 0.0 } else { value };
     let size = value.abs();
     if value != 0.0 && !(1e-3..1e5).contains(&size) {
         return format!("{value:.1e}");
@@ -279,6 +281,7 @@ mod tests {
         let shown = [0.3, -0.188_712_345, 0.5, 36.0, 1234.5678, -98_765.4, 0.0, 1e12, -2.5e-5].map(|x| short(x, 3));
         assert_eq!(shown, ["0.300", "-0.1887", "0.500", "36.000", "1234.6", "-98765", "0.000", "1.0e12", "-2.5e-5"]);
         assert!(shown.iter().all(|text| text.len() <= 7), "{shown:?}");
+        assert_eq!(short(-0.0, 3), "0.000");
     }
 
     #[test]
