@@ -20,27 +20,28 @@ pub(crate) fn ui(
     for drawn in &scenery.drawn {
         let sense = if drawn.look == Look::Faint { Sense::hover() } else { Sense::focusable_noninteractive() };
         let response = ui.interact(drawn.grab_rect(), ui.scope_id().with(drawn.id), sense);
-        let label = drawn.handle.label(stage.document.scene());
-        name(&response, &label);
+        let label = || drawn.handle.label(stage.document.scene());
+        name(&response, label);
         if is_activated(ui, &response) {
             commands.push(AppCommand::Select(stage.clicked(drawn.handle, false)));
         }
         if hot == Some(Target::Handle(drawn.handle)) {
-            response.on_hover_text(label);
+            response.on_hover_text(label());
         }
     }
     for part in scenery.gizmo.iter().flat_map(|gizmo| &gizmo.parts) {
         let grip = Rect::from_center_size(part.grip(), Vec2::splat(GRIP));
         let response = ui.interact(grip, ui.scope_id().with(part.part), Sense::hover());
-        name(&response, part.part.label());
+        name(&response, || part.part.label().to_owned());
         if hot == Some(Target::Part(part.part)) {
             response.on_hover_text(part.part.label());
         }
     }
 }
 
-fn name(response: &Response, label: &str) {
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
+/// Names a widget for assistive technology; the label is made only where there is such.
+fn name(response: &Response, label: impl Fn() -> String) {
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label()));
 }
 
 /// Whether the keyboard or assistive technology activates a widget that the pointer passes through.

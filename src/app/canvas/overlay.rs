@@ -8,6 +8,7 @@ use crate::app::theme::{self, overlay};
 use crate::scene::Bezier;
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, vec2};
 use glam::DVec3;
+use std::array;
 
 /// Radius of a handle at every zoom, screen points.
 const RADIUS: f32 = 4.0;
@@ -31,8 +32,9 @@ pub(crate) fn paint_net(painter: &Painter, stage: &Stage<'_>, object: usize, bez
             continue;
         }
         let hidden = |i: usize, j: usize| stage.sight.is_point_hidden(object, PointIndex { patch, i, j });
+        let hidden: [[bool; 4]; 4] = array::from_fn(|i| array::from_fn(|j| hidden(i, j)));
         for ((i, j), (k, l)) in segments() {
-            let is_hidden = hidden(i, j) || hidden(k, l);
+            let is_hidden = hidden[i][j] || hidden[k][l];
             if current || !is_hidden {
                 paint_segment(painter, screen[i][j].zip(screen[k][l]), current && !is_hidden);
             }

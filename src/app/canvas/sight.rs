@@ -4,7 +4,7 @@ use super::picking::Surfaces;
 use super::projection::Projection;
 use super::visibility::Visibility;
 use crate::app::document::{Document, Handle, Item, PointIndex, Welds, handles};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 /// What the camera sees of the scene and its handles.
 #[derive(Debug, Default)]
@@ -32,9 +32,7 @@ impl Sight {
             .and_then(|film| self.surfaces.nearest(&projection.ray(film)))
             .filter(|pick| selection.item == Item::Object(pick.object))
             .map(|pick| pick.patch);
-        let handles = handles::visible(scene, selection.item, self.welds.groups()).into_iter();
-        let placed: Vec<(Handle, DVec3)> =
-            handles.filter_map(|handle| Some((handle, handle.position(scene)?))).collect();
+        let placed = handles::visible(scene, selection.item, self.welds.groups());
         self.waits = !self.visibility.update(&self.surfaces, projection, &placed);
     }
 

@@ -97,7 +97,9 @@ impl Stage<'_> {
         let selection = &self.document.selection;
         selection.item == handle.item()
             && match handle {
-                Handle::Point { point, .. } => self.sight.welds.with(point).any(|p| selection.points.contains(&p)),
+                Handle::Point { point, .. } => {
+                    !selection.points.is_empty() && self.sight.welds.with(point).any(|p| selection.points.contains(&p))
+                }
                 Handle::Object(_) | Handle::Light(_) => true,
             }
     }
@@ -110,7 +112,7 @@ impl Stage<'_> {
         let visible = handles::visible(self.document.scene(), self.document.selection.item, self.sight.welds.groups());
         let tiny = self.tiny_patches();
         let mut drawn: Vec<ScreenHandle> =
-            visible.into_iter().filter_map(|handle| self.placed(handle, &tiny)).collect();
+            visible.into_iter().filter_map(|(handle, world)| self.placed(handle, world, &tiny)).collect();
         drawn.sort_by(|a, b| a.look.cmp(&b.look).then(b.depth.total_cmp(&a.depth)));
         drawn
     }
@@ -133,10 +135,9 @@ impl Stage<'_> {
         self.sight.welds.with(point).all(|point| tiny.get(point.patch).is_some_and(|tiny| *tiny))
     }
 
-    /// The handle on the screen; `None` off the canvas, and for a control point that is not current where it is not seen or
+    /// The handle at a world point on the screen; `None` off the canvas, and for a control point that is not current where it is not seen or
     /// its patches are too small.
-    fn placed(&self, id: Handle, tiny: &[bool]) -> Option<ScreenHandle> {
-        let world = id.position(self.document.scene())?;
+    fn placed(&self, id: Handle, world: DVec3, tiny: &[bool]) -> Option<ScreenHandle> {
         let screen = self.screen(world).filter(|screen| self.transform.canvas.contains(*screen))?;
         let (handle, current) = match id {
             Handle::Point { object, point } => {

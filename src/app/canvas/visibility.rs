@@ -5,7 +5,7 @@ use super::projection::Projection;
 use crate::app::document::Handle;
 use crate::math::Ray;
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
 /// Time for rays in one frame. Further handles wait for the next frame: a new patch takes a third of a millisecond before
@@ -22,7 +22,7 @@ pub(crate) struct Visibility {
     /// The camera and the revision of the surfaces that the present generation holds for.
     view: Option<(Projection, u64)>,
     generation: u64,
-    known: BTreeMap<Handle, Known>,
+    known: HashMap<Handle, Known>,
 }
 
 /// The last known visibility of a handle.

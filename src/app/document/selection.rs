@@ -31,6 +31,13 @@ pub(crate) struct PointIndex {
     pub(crate) j: usize,
 }
 
+impl PointIndex {
+    /// The place of the control point in a list of all control points of the object.
+    pub(crate) fn place(self) -> usize {
+        16 * self.patch + 4 * self.i + self.j
+    }
+}
+
 /// The selected item and, for a Bezier object, its selected control points.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(crate) struct Selection {

@@ -4,7 +4,7 @@ use super::handles::weld_groups;
 use super::selection::PointIndex;
 use crate::geometry::bezier::ControlNet;
 use crate::scene::Bezier;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The control points of an object in groups of equal position.
@@ -13,7 +13,8 @@ pub(crate) struct Welds {
     /// The patches that the groups belong to.
     patches: Option<Arc<Vec<ControlNet>>>,
     groups: Vec<BTreeSet<PointIndex>>,
-    group_of: BTreeMap<PointIndex, usize>,
+    /// The group of each control point, 16 a patch.
+    group_of: Vec<usize>,
 }
 
 impl Welds {
@@ -35,9 +36,10 @@ impl Welds {
         }
         self.patches = Some(Arc::clone(&bezier.patches));
         self.groups = weld_groups(bezier);
-        let members =
-            self.groups.iter().enumerate().flat_map(|(group, points)| points.iter().map(move |p| (*p, group)));
-        self.group_of = members.collect();
+        self.group_of = vec![0; 16 * bezier.patches.len()];
+        for (group, points) in self.groups.iter().enumerate() {
+            points.iter().for_each(|point| self.group_of[point.place()] = group);
+        }
     }
 
     /// All groups.
@@ -47,7 +49,7 @@ impl Welds {
 
     /// The control points at the position of `point`, including itself.
     pub(crate) fn with(&self, point: PointIndex) -> impl Iterator<Item = PointIndex> + '_ {
-        let group = self.group_of.get(&point).and_then(|group| self.groups.get(*group));
+        let group = self.group_of.get(point.place()).and_then(|group| self.groups.get(*group));
         let alone = group.is_none().then_some(point);
         group.into_iter().flatten().copied().chain(alone)
     }

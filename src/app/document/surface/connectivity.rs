@@ -48,7 +48,7 @@ impl Connectivity {
         let nodes = weld_groups(bezier);
         let mut node_of = vec![0; 16 * bezier.patches.len()];
         for (node, points) in nodes.iter().enumerate() {
-            points.iter().for_each(|point| node_of[index(*point)] = node);
+            points.iter().for_each(|point| node_of[point.place()] = node);
         }
         Self { nodes, node_of, edges: OnceCell::new() }
     }
@@ -77,7 +77,7 @@ impl Connectivity {
 
     /// The node of a control point.
     pub(super) fn node(&self, point: PointIndex) -> usize {
-        self.node_of[index(point)]
+        self.node_of[point.place()]
     }
 
     /// All sides along the edge of `side`, itself included. A side that is collapsed to a point is alone: the patches around a
@@ -138,10 +138,6 @@ impl Connectivity {
 
 fn is_point(edge: EdgeKey) -> bool {
     edge.iter().all(|node| *node == edge[0])
-}
-
-fn index(point: PointIndex) -> usize {
-    16 * point.patch + 4 * point.i + point.j
 }
 
 #[cfg(test)]

@@ -249,5 +249,5 @@ fn turn_wheel(ui: &mut Ui, lines: f32) {
 fn point_handles(ui: &Ui) -> Vec<Handle> {
     let selection = &ui.state().document.selection;
     let welds = Welds::of(selection.bezier(scene(ui)).unwrap());
-    handles::visible(scene(ui), selection.item, welds.groups())
+    handles::visible(scene(ui), selection.item, welds.groups()).into_iter().map(|(handle, _)| handle).collect()
 }
