@@ -2,8 +2,8 @@
 
 use super::selection::{Item, PointIndex};
 use crate::scene::{Bezier, Emitter, Object, Scene, Shape};
-use glam::{DVec3, IVec3};
-use std::collections::{BTreeSet, HashMap};
+use glam::DVec3;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Control points nearer to each other than this fraction of their object's size are welded: they have one handle.
@@ -122,31 +122,18 @@ pub(crate) fn control_points(bezier: &Bezier) -> impl Iterator<Item = (PointInde
 pub(super) fn weld_groups(bezier: &Bezier) -> Vec<BTreeSet<PointIndex>> {
     let size = control_points(bezier).map(|(_, at)| at.abs().max_element()).fold(0.0, f64::max);
     let tolerance = WELD_TOLERANCE * size;
+    let mut sorted: Vec<_> = control_points(bezier).collect();
+    sorted.sort_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     let mut groups: Vec<(DVec3, BTreeSet<PointIndex>)> = Vec::new();
-    // The groups by the cells of their first points. A cell is wide, so that a point is seldom near a second one.
-    let cell = |at: DVec3| (at / (8.0 * tolerance).max(f64::MIN_POSITIVE)).floor().as_ivec3();
-    let mut in_cell: HashMap<IVec3, Vec<usize>> = HashMap::new();
-    for (index, at) in control_points(bezier) {
-        let near = cells(cell(at - tolerance), cell(at + tolerance)).filter_map(|cell| in_cell.get(&cell)).flatten();
-        match near.copied().find(|group| groups[*group].0.distance(at) <= tolerance) {
-            Some(group) => drop(groups[group].1.insert(index)),
-            None => {
-                in_cell.entry(cell(at)).or_default().push(groups.len());
-                groups.push((at, BTreeSet::from([index])));
-            }
+    for (index, at) in sorted {
+        // The points are sorted by x, so only the last groups can lie within the tolerance.
+        let near = groups.iter_mut().rev().take_while(|(first, _)| at.x - first.x <= tolerance);
+        match near.into_iter().find(|(first, _)| first.distance(at) <= tolerance) {
+            Some((_, group)) => drop(group.insert(index)),
+            None => groups.push((at, BTreeSet::from([index]))),
         }
     }
     groups.into_iter().map(|(_, group)| group).collect()
-}
-
-/// The cells of a box between two of its corners.
-fn cells(low: IVec3, high: IVec3) -> impl Iterator<Item = IVec3> {
-    let along = |axis: usize| low[axis]..=high[axis];
-    let [x, y, z] = [along(0), along(1), along(2)];
-    x.flat_map(move |x| {
-        let z = z.clone();
-        y.clone().flat_map(move |y| z.clone().map(move |z| IVec3::new(x, y, z)))
-    })
 }
 
 fn bezier(scene: &Scene, object: usize) -> Option<&Bezier> {
@@ -285,11 +272,11 @@ mod tests {
     }
 
     #[test]
-    fn points_within_the_tolerance_are_one_group_also_across_the_border_of_a_cell() {
+    fn points_within_the_tolerance_are_one_group() {
         let mut scene = scene();
         let Shape::Bezier(bezier) = &mut scene.objects[0].shape else { panic!("patches") };
         let patches = Arc::make_mut(&mut bezier.patches);
-        // Around 0, where cells meet in all directions; the tolerance is at least 1e-9, because coordinates reach 1.
+        // The tolerance is at least 1e-9, because coordinates reach 1.
         patches[0].points[0][0] = DVec3::splat(-2e-10);
         patches[0].points[1][0] = DVec3::splat(2e-10);
         let groups = weld_groups(bezier);
@@ -301,7 +288,7 @@ mod tests {
     fn a_sheet_of_many_patches_has_one_group_a_position() {
         let mut scene = scene();
         let Shape::Bezier(bezier) = &mut scene.objects[0].shape else { panic!("patches") };
-        // Columns of points with one x each: a search along x alone would compare each point with its column.
+        // Columns of points with one x each.
         let net = |k: usize| {
             let (column, row) = (3 * (k % 64), 3 * (k / 64));
             let at = |i: usize, j: usize| DVec3::new((column + i) as f64, 0.0, (row + j) as f64);
