@@ -180,11 +180,16 @@ impl Worker {
         let (generation, shared) = (*generation, &self.shared);
         let outdated = move || shared.is_outdated(generation);
         let cancel = Cancel::when(&outdated);
-        if let Some(coarseness) = self.drafts.next() {
+        let pixels = session.camera().pixel_count();
+        let next = match &self.preview {
+            Some(preview) => self.drafts.next_of_changes(pixels, preview.doubtful_fraction()),
+            None => self.drafts.next(),
+        };
+        if let Some(coarseness) = next {
             // Finer drafts bridge the time that the first iteration takes.
             let start = Instant::now();
-            let coarseness = if self.preview.is_some() { 1 } else { coarseness };
-            let size = DraftSize { coarseness, ..DraftSize::FULL };
+            let thinning = if coarseness > 1 { self.drafts.thinning() } else { 1 };
+            let size = DraftSize { coarseness, thinning };
             let doubtful = self.preview.as_ref().map(|preview| preview.doubtful(coarseness));
             let draft = self.pool.install(|| session.draft(size, doubtful, cancel));
             self.drafts.next_took(coarseness, start.elapsed().as_secs_f64());

@@ -25,6 +25,9 @@ const INERTIA: f64 = 1.3;
 const CHANGED: f64 = 1.3;
 /// Coarseness of a finer draft over that of the draft before, at most: otherwise it would show little more.
 const FINER: f64 = 0.75;
+/// Time of a finer draft of what an edit has changed, seconds, before the one with all pixels: it bridges the time that this takes on a slow
+/// or busy machine.
+const BRIDGE_SECONDS: f64 = 0.08;
 /// Most time of a finer draft, seconds, except for the last one, which has all pixels. A longer draft adds to the wait for all pixels; with a
 /// shorter limit no draft comes between the first and the last one.
 const LONGEST_DRAFT_SECONDS: f64 = 0.12;
@@ -41,13 +44,15 @@ pub(in crate::engine) struct DraftPace {
     size: DraftSize,
     /// Time of a draft for its photons, and for each pixel, seconds; `None` before any was timed.
     times: Option<[f64; 2]>,
+    /// Coarseness of the present scene's last draft.
+    last: u32,
     /// Coarseness of the present scene's next draft; 0 when iterations are due.
     next: u32,
 }
 
 impl Default for DraftPace {
     fn default() -> Self {
-        Self { size: FIRST, times: None, next: 0 }
+        Self { size: FIRST, times: None, last: 0, next: 0 }
     }
 }
 
@@ -65,6 +70,11 @@ impl DraftPace {
         self.size
     }
 
+    /// The thinning of drafts that have not all pixels.
+    pub(in crate::engine) fn thinning(&self) -> u32 {
+        self.size.thinning
+    }
+
     /// Takes the time of the first draft into account.
     pub(in crate::engine) fn first_took(&mut self, draft: &Draft) {
         let passes = draft.stats.passes;
@@ -78,16 +88,21 @@ impl DraftPace {
         } else if wanted < 0.4 * f64::from(self.size.thinning) && self.size.thinning > 1 {
             (self.size.thinning, self.times) = (self.size.thinning / 2, Some([2.0 * photons, pixel]));
         }
-        self.next = finer(draft.size.coarseness, draft.stats.seconds);
+        self.next_took(draft.size.coarseness, draft.stats.seconds);
     }
 
     /// The coarseness of a draft of the changed part of a film of `pixels` pixels that may follow the first draft within the time of the
     /// first picture, of which `seconds` have passed; `None` where it would not be much finer.
     pub(in crate::engine) fn of_changes(&self, pixels: usize, changed: f64, seconds: f64) -> Option<u32> {
+        (changed > 0.0).then(|| self.finer_within(PICTURE_SECONDS - seconds, pixels, changed, self.size.coarseness))?
+    }
+
+    /// The coarseness of a draft of the changed part of a film that takes this time; `None` where it would not be much finer than `before`.
+    fn finer_within(&self, seconds: f64, pixels: usize, changed: f64, before: u32) -> Option<u32> {
         let [photons, pixel] = self.times?;
-        let rest = PICTURE_SECONDS - seconds - photons;
-        let wanted = (CHANGED * changed * pixels as f64 * pixel / rest.max(0.0)).sqrt().ceil();
-        (changed > 0.0 && wanted <= FINER * f64::from(self.size.coarseness)).then(|| wanted.max(1.0) as u32)
+        let time = CHANGED * changed * pixels as f64 * pixel;
+        let wanted = (time / (seconds - photons).max(0.0)).sqrt().ceil();
+        (wanted <= FINER * f64::from(before)).then(|| wanted.max(1.0) as u32)
     }
 
     /// The coarseness of the present scene's next draft; `None` when iterations are due.
@@ -95,9 +110,15 @@ impl DraftPace {
         (self.next > 0).then_some(self.next)
     }
 
+    /// [`Self::next`] for a draft of the changed part of a film of `pixels` pixels, where a picture before the edit stands in for the rest.
+    pub(in crate::engine) fn next_of_changes(&self, pixels: usize, changed: f64) -> Option<u32> {
+        self.next()?;
+        Some(self.finer_within(BRIDGE_SECONDS, pixels, changed, self.last).unwrap_or(1))
+    }
+
     /// Takes the time of a draft of this coarseness, seconds, into account.
     pub(in crate::engine) fn next_took(&mut self, coarseness: u32, seconds: f64) {
-        self.next = finer(coarseness, seconds);
+        (self.last, self.next) = (coarseness, finer(coarseness, seconds));
     }
 }
 
@@ -156,6 +177,18 @@ mod tests {
         assert_eq!(pace.of_changes(FILM, 1.0, spent), None, "too much has changed");
         assert_eq!(pace.of_changes(FILM, 0.05, PICTURE_SECONDS), None, "no time is left");
         assert_eq!(pace.of_changes(FILM, 0.0, spent), None, "nothing has changed");
+    }
+
+    #[test]
+    fn a_large_change_is_drafted_step_by_step_and_a_small_one_at_once() {
+        let (mut pace, draft) = settled(true);
+        assert_eq!(pace.next_of_changes(FILM, 0.05), Some(1));
+        let bridge = pace.next_of_changes(FILM, 1.0).expect("all pixels are missing");
+        assert!(1 < bridge && bridge < draft.size.coarseness, "{bridge}");
+        pace.next_took(bridge, BRIDGE_SECONDS);
+        assert_eq!(pace.next_of_changes(FILM, 1.0), Some(1));
+        pace.next_took(1, 0.3);
+        assert_eq!(pace.next_of_changes(FILM, 1.0), None, "iterations follow");
     }
 
     #[test]
