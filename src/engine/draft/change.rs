@@ -32,6 +32,23 @@ struct Cell {
     trust: f32,
 }
 
+/// A pixel of a picture before an edit, as it would be after it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Substitute {
+    pub(super) radiance: Rgb,
+    /// How far the change is smooth, from 0 to 1.
+    pub(super) trust: f32,
+    /// The squared relative change, mean over the channels.
+    pub(super) squared_change: f32,
+}
+
+impl Substitute {
+    /// A pixel that the edit does not change.
+    pub(super) fn unchanged(radiance: Rgb) -> Self {
+        Self { radiance, trust: 1.0, squared_change: 0.0 }
+    }
+}
+
 impl Change {
     /// The change from one draft to the other.
     pub(super) fn between(before: &Draft, after: &Draft) -> Self {
@@ -42,8 +59,8 @@ impl Change {
         Self { size, cells, floor }
     }
 
-    /// The pixels of an image before the change as they are after it, and how far the change is smooth there, from 0 to 1, row by row.
-    pub(super) fn applied<'a>(&'a self, image: &'a LinearImage) -> impl Fn(u32) -> Vec<(Rgb, f32)> + 'a {
+    /// The pixels of an image before the change as they are after it, row by row.
+    pub(super) fn applied<'a>(&'a self, image: &'a LinearImage) -> impl Fn(u32) -> Vec<Substitute> + 'a {
         let size = [image.width, image.height];
         let cells = Enlarged::new(&self.cells, self.size, size, |a: Cell, b, t| Cell {
             ratio: a.ratio.lerp(b.ratio, t),
@@ -52,8 +69,11 @@ impl Change {
         move |y| {
             let width = image.width as usize;
             let pixels = &image.pixels[y as usize * width..][..width];
-            let apply =
-                |(cell, radiance): (Cell, &Rgb)| ((*radiance + self.floor) * cell.ratio - self.floor, cell.trust);
+            let apply = |(Cell { ratio, trust }, radiance): (Cell, &Rgb)| Substitute {
+                radiance: (*radiance + self.floor) * ratio - self.floor,
+                trust,
+                squared_change: (ratio - 1.0).length_squared() / 3.0,
+            };
             cells.row(y).zip(pixels).map(apply).collect()
         }
     }
@@ -101,7 +121,7 @@ mod tests {
     }
 
     /// A pixel of an image of this radiance as large as the drafts, after the change.
-    fn applied(change: &Change, radiance: Rgb, [x, y]: [u32; 2]) -> (Rgb, f32) {
+    fn applied(change: &Change, radiance: Rgb, [x, y]: [u32; 2]) -> Substitute {
         let image = LinearImage { width: SIDE, height: SIDE, pixels: vec![radiance; (SIDE * SIDE) as usize] };
         change.applied(&image)(y)[x as usize]
     }
@@ -110,7 +130,7 @@ mod tests {
     fn no_change_changes_nothing_and_is_trusted() {
         let change = Change::between(&draft(1.0, texture), &draft(1.0, texture));
         for x in [0, 3, 7] {
-            let (radiance, trust) = applied(&change, Rgb::new(0.1, 2.0, 30.0), [x, 4]);
+            let Substitute { radiance, trust, .. } = applied(&change, Rgb::new(0.1, 2.0, 30.0), [x, 4]);
             assert!((radiance - Rgb::new(0.1, 2.0, 30.0)).length() < 1e-5 && trust == 1.0, "{radiance} {trust}");
         }
     }
@@ -118,7 +138,8 @@ mod tests {
     #[test]
     fn brighter_light_on_a_texture_is_trusted() {
         let change = Change::between(&draft(1.0, texture), &draft(1.0, |column| 1.5 * texture(column)));
-        let (radiance, trust) = applied(&change, Rgb::splat(2.0), [4, 4]);
+        let Substitute { radiance, trust, squared_change } = applied(&change, Rgb::splat(2.0), [4, 4]);
+        assert!((squared_change - 0.25).abs() < 0.02, "{squared_change}");
         assert!((radiance.x - 3.0).abs() < 0.05 && trust > 0.95, "{radiance} {trust}");
     }
 
@@ -127,7 +148,7 @@ mod tests {
         let edge = |at: u32| move |column: u32| if column < at { 1.0 } else { 2.0 };
         let trust = |sharp: f32, x: u32| {
             let change = Change::between(&draft(sharp, edge(4)), &draft(sharp, edge(5)));
-            applied(&change, Rgb::ONE, [x, 4]).1
+            applied(&change, Rgb::ONE, [x, 4]).trust
         };
         assert_eq!([trust(1.0, 4), trust(1.0, 1), trust(1.0, 7)], [0.0, 1.0, 1.0]);
         assert_eq!(trust(0.0, 4), 1.0);
@@ -137,9 +158,9 @@ mod tests {
     fn another_surface_is_not_trusted_nor_light_on_what_was_dark() {
         let farther = vec![FirstHit { depth: 2.02, is_matte: true }; (SIDE * SIDE) as usize];
         let moved = Draft { first_hits: farther, ..draft(1.0, texture) };
-        assert_eq!(applied(&Change::between(&draft(1.0, texture), &moved), Rgb::ONE, [4, 4]).1, 0.0);
+        assert_eq!(applied(&Change::between(&draft(1.0, texture), &moved), Rgb::ONE, [4, 4]).trust, 0.0);
         let lit = |column: u32| if column < 4 { 0.0 } else { 1.0 };
         let change = Change::between(&draft(0.0, lit), &draft(0.0, |_| 1.0));
-        assert_eq!([1, 7].map(|x| applied(&change, Rgb::ONE, [x, 4]).1), [0.0, 1.0]);
+        assert_eq!([1, 7].map(|x| applied(&change, Rgb::ONE, [x, 4]).trust), [0.0, 1.0]);
     }
 }

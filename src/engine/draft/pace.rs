@@ -6,7 +6,7 @@ use crate::transport::DraftSize;
 /// Time that the first picture should take, seconds: a frame of 30 Hz, less preparation and display.
 const PICTURE_SECONDS: f64 = 0.02;
 /// Part of this time for photons, of which the rest of the time has the light seen.
-const PHOTONS: f64 = 0.3;
+const PHOTONS: f64 = 0.4;
 /// Part of the remaining time for the draft that tells what an edit has changed, where there is a picture before the edit. The rest is for a
 /// finer draft of what has changed.
 const LOOK: f64 = 0.4;

@@ -1,6 +1,6 @@
 //! A picture for the screen: the draft of a scene, and the picture before the edit where that stands in for it.
 
-use super::change::Change;
+use super::change::{Change, Substitute};
 use super::grid::{Enlarged, sample};
 use super::image::Draft;
 use super::reprojection::Reprojection;
@@ -12,6 +12,9 @@ use std::sync::Arc;
 
 /// Iterations, as full ones, after which the new picture stands for itself.
 const FADING_WEIGHT: f64 = 16.0;
+/// Squared relative change at which the change alone makes the error of a pixel as great as that of one full iteration: a draft knows a change
+/// of 15 % to some tenths of itself.
+const CHANGE_NOISE: f32 = 0.02;
 /// Trust from which on a pixel of the picture before needs no pixel of a draft.
 const FULL_TRUST: f32 = 0.95;
 
@@ -29,8 +32,8 @@ pub(in crate::engine) struct Before<'a> {
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Preview {
     pub(in crate::engine) image: Arc<LinearImage>,
-    /// The picture before the edit, changed as the draft says, and for each pixel, how far it stands in, from 0 to 1.
-    stand_in: Arc<[(Rgb, f32)]>,
+    /// The pixels of the picture before the edit, changed as the draft says.
+    stand_in: Arc<[Substitute]>,
     /// The iterations in the picture before the edit.
     weight: f64,
 }
@@ -46,7 +49,7 @@ impl Before<'_> {
             let reprojection = Reprojection::new([own, camera], [before, after]);
             let pixel = |x: u32, y: u32| {
                 let then = reprojection.before(x as f32 + 0.5, y as f32 + 0.5);
-                then.map_or((Rgb::ZERO, 0.0), |[x, y]| (sample(old, x, y), 1.0))
+                then.map_or(Substitute::default(), |[x, y]| Substitute::unchanged(sample(old, x, y)))
             };
             composed(old, |y| (0..old.width).map(|x| pixel(x, y)).collect())
         };
@@ -59,7 +62,7 @@ impl Preview {
     pub(in crate::engine) fn doubtful(&self, coarseness: u32) -> Arc<[bool]> {
         let (width, height) = (self.image.width.div_ceil(coarseness), self.image.height.div_ceil(coarseness));
         let mut doubtful = vec![false; width as usize * height as usize];
-        let doubts = self.stand_in.iter().zip(0..).filter(|((_, trust), _)| *trust < FULL_TRUST);
+        let doubts = self.stand_in.iter().zip(0..).filter(|(pixel, _)| pixel.trust < FULL_TRUST);
         for (_, index) in doubts {
             let (x, y) = (index % self.image.width, index / self.image.width);
             // The pixels of the draft between whose middles the pixel lies, if the draft is coarse.
@@ -78,7 +81,7 @@ impl Preview {
 
     /// The fraction of the pixels that the preview lacks.
     pub(in crate::engine) fn doubtful_fraction(&self) -> f64 {
-        let doubtful = self.stand_in.iter().filter(|(_, trust)| *trust < FULL_TRUST).count();
+        let doubtful = self.stand_in.iter().filter(|pixel| pixel.trust < FULL_TRUST).count();
         doubtful as f64 / self.stand_in.len() as f64
     }
 
@@ -93,20 +96,25 @@ impl Preview {
         if fading <= 0.0 {
             return None;
         }
-        let most = (fading * self.weight / (self.weight + weight)) as f32;
-        let pixels = image.pixels.iter().zip(self.stand_in.iter());
-        let pixels = pixels.map(|(new, (old, trust))| new.lerp(old.max(Rgb::ZERO), trust * most)).collect();
+        let (fading, own, weight) = (fading as f32, self.weight as f32, weight as f32);
+        let pixels = image.pixels.iter().zip(self.stand_in.iter()).map(|(new, old)| {
+            // The iterations that the old pixel is worth: the change adds to its error, in proportion to itself.
+            let worth = 1.0 / (1.0 / own + old.squared_change / CHANGE_NOISE);
+            new.lerp(old.radiance.max(Rgb::ZERO), old.trust * fading * worth / (worth + weight))
+        });
+        let pixels = pixels.collect();
         Some(LinearImage { pixels, ..*image })
     }
 }
 
 /// A picture of the size of `film`: the picture that stands in where it is trusted, the draft elsewhere.
-fn mixed(film: &LinearImage, stand_in: &[(Rgb, f32)], draft: &Draft) -> LinearImage {
+fn mixed(film: &LinearImage, stand_in: &[Substitute], draft: &Draft) -> LinearImage {
     let size = [film.width, film.height];
     let drafted = Enlarged::new(&draft.image.pixels, draft.pixel_size(), size, Rgb::lerp);
     let pixels = composed(film, |y| {
         let stand_in = &stand_in[(y * film.width) as usize..][..film.width as usize];
-        drafted.row(y).zip(stand_in).map(|(drafted, (old, trust))| drafted.lerp(old.max(Rgb::ZERO), *trust)).collect()
+        let mix = |(drafted, old): (Rgb, &Substitute)| drafted.lerp(old.radiance.max(Rgb::ZERO), old.trust);
+        drafted.row(y).zip(stand_in).map(mix).collect()
     });
     LinearImage { pixels, ..*film }
 }
@@ -125,7 +133,8 @@ mod tests {
     }
 
     fn preview() -> Preview {
-        let stand_in = Arc::new([(1.0, 1.0), (2.0, 0.5), (3.0, 0.0)].map(|(value, trust)| (Rgb::splat(value), trust)));
+        let pixel = |(value, trust)| Substitute { trust, ..Substitute::unchanged(Rgb::splat(value)) };
+        let stand_in = Arc::new([(1.0, 1.0), (2.0, 0.5), (3.0, 0.0)].map(pixel));
         Preview { image: Arc::new(image([1.0, 2.0, 3.0])), stand_in, weight: 30.0 }
     }
 
@@ -144,6 +153,14 @@ mod tests {
     }
 
     #[test]
+    fn a_pixel_that_has_changed_gives_way_sooner() {
+        let mut changed = preview();
+        changed.stand_in = changed.stand_in.iter().map(|pixel| Substitute { squared_change: 0.1, ..*pixel }).collect();
+        let first = |preview: &Preview| values(&preview.with(&image([5.0; 3]), 1.0).unwrap())[0];
+        assert!(first(&preview()) < 1.4 && first(&changed) > 4.0, "{} {}", first(&preview()), first(&changed));
+    }
+
+    #[test]
     fn a_draft_with_all_pixels_fills_in_the_doubtful_ones() {
         assert_eq!(*preview().doubtful(1), [false, true, true]);
         assert!((preview().doubtful_fraction() - 2.0 / 3.0).abs() < 1e-9);
@@ -154,7 +171,8 @@ mod tests {
     #[test]
     fn a_coarse_draft_has_all_pixels_between_which_a_doubtful_pixel_lies() {
         let trust = |index: u32| if index == 5 * 16 + 7 { 0.0 } else { 1.0 };
-        let stand_in: Arc<[_]> = (0..16 * 16).map(|index| (Rgb::ONE, trust(index))).collect();
+        let pixel = |index| Substitute { trust: trust(index), ..Substitute::unchanged(Rgb::ONE) };
+        let stand_in: Arc<[_]> = (0..16 * 16).map(pixel).collect();
         let preview = Preview { image: Arc::new(LinearImage::black(16, 16)), stand_in, weight: 1.0 };
         let doubtful = preview.doubtful(4);
         let chosen: Vec<usize> = (0..16).filter(|index| doubtful[*index]).collect();
