@@ -178,8 +178,11 @@ impl Session {
     /// A quick picture of this size, of the chosen pixels only, if any; `None` when cancelled. The film does not change.
     pub fn draft(&self, size: DraftSize, chosen: Option<Arc<[bool]>>, cancel: Cancel) -> Option<Draft> {
         let start = Instant::now();
-        let plan = self.plan.draft(size);
-        let plan = chosen.map_or(plan.clone(), |chosen| plan.of_pixels(chosen));
+        let whole = self.plan.draft(size);
+        let plan = match chosen {
+            Some(chosen) => whole.of_pixels(chosen),
+            None => whole,
+        };
         let (width, height) = (plan.camera.width, plan.camera.height);
         let meter = PassMeter::default();
         let input = PassInput { world: &self.world, plan: &plan, seed: self.seed, iteration: 1, cancel };

@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 /// Iterations, as full ones, after which the new picture stands for itself.
 const FADING_WEIGHT: f64 = 16.0;
-/// Squared relative change at which the change alone makes the error of a pixel as great as that of one full iteration: a draft knows a change
-/// of 15 % to some tenths of itself.
+/// Squared relative change from which on a pixel of the picture before is worth at most one full iteration: a draft of few photons knows a
+/// change roughly. Without this limit a picture from before a light was moved was still visible after a second.
 const CHANGE_NOISE: f32 = 0.02;
 /// Trust from which on a pixel of the picture before needs no pixel of a draft.
 const FULL_TRUST: f32 = 0.95;
