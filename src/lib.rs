@@ -95,8 +95,8 @@
 //!   the neighbouring pixels need weights its camera samples. After iterations 4, 8, 16, ... the plan is refined by the
 //!   measurements of the iterations: radii of density estimates, pixels that gather caustics, and the number of camera
 //!   samples of each pixel.
-//! - A cancelled pass returns nothing, and the film changes only by whole iterations. Drafts and the picture before an
-//!   edit never enter the film.
+//! - A cancelled pass returns nothing, and the film changes only by whole iterations. Drafts, the picture before an
+//!   edit and smoothed pictures never enter the film.
 //! - Colours are `f32`; positions, directions and distances are `f64`, because the offset that keeps a ray off the surface
 //!   it leaves has to be small against the scene and large against rounding. Photons and visible points are stored in `f32`,
 //!   relative to the middle of the scene.
@@ -158,7 +158,9 @@
 //! | checkpoint | a part in a file |
 //! | draft | quick first picture after an edit, with fewer pixels and photons |
 //! | stand-in | picture before an edit, which the screen shows where the edit has hardly changed the light, times the change |
-//! | preview | picture for the screen alone: together with the stand-in |
+//! | display filter, smoothed | takes noise out of the interreflection that the screen shows; what it was taken out of |
+//! | block | 2 x 2 pixels whose irradiance the display filter smooths together |
+//! | preview | picture for the screen alone: smoothed, and together with the stand-in |
 //! | generation | number of a scene that the engine was sent; grows with each edit |
 //! | band | whole rows of the film that the camera pass and the gather pass render independently |
 //! | heterogeneous pixel | pixel that shows several surfaces or a texture; gets at least four camera samples |
@@ -194,6 +196,7 @@
 //! - \[Blinn78\] J. Blinn, Simulation of Wrinkled Surfaces, SIGGRAPH 1978.
 //! - \[Burley20\] B. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 //! - \[Clarberg08\] P. Clarberg, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, JGT 13(3), 2008.
+//! - \[Dammertz10\] H. Dammertz et al., Edge-Avoiding À-Trous Wavelet Transform for fast Global Illumination Filtering, HPG 2010.
 //! - \[Duff17\] T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
 //! - \[FanGijbels96\] J. Fan, I. Gijbels, Local Polynomial Modelling and Its Applications, 1996.
 //! - \[GKDS12\] I. Georgiev et al., Light Transport Simulation with Vertex Connection and Merging, ACM TOG 31(6), 2012.

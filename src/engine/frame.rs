@@ -18,8 +18,10 @@ pub struct Frame {
     pub iteration: u64,
     /// Linear radiance.
     pub image: Arc<LinearImage>,
-    /// What a screen may show instead while the picture has few iterations: together with the picture before an edit.
+    /// What a screen may show instead while the picture has few iterations: with less noise, and together with the picture before an edit.
     pub preview: Option<Arc<LinearImage>>,
+    /// Whether the preview has less noise in its interreflection than the picture.
+    pub smoothed: bool,
     /// Statistics of the rendering so far.
     pub stats: Stats,
     /// The decisions of the plan.

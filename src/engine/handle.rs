@@ -57,6 +57,7 @@ impl Engine {
             Command::Pause => request.paused = true,
             Command::Resume => request.paused = false,
             Command::Target(target) => request.target = target,
+            Command::Smooth(smooth) => request.smooth = smooth,
         }
         drop(request);
         self.wake();

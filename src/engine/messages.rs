@@ -26,6 +26,8 @@ pub enum Command {
     Restart,
     /// Rests once the estimated error (RMSE over the mean) is at most this; `None` renders without end.
     Target(Option<f64>),
+    /// Whether [`Frame::preview`](super::Frame::preview) has less noise in its interreflection than the picture.
+    Smooth(bool),
 }
 
 /// The state of the engine.

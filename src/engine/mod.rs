@@ -15,6 +15,7 @@
 //! | `run` | what must be equal for parts to belong to one run |
 //! | `checkpoint` | a part of a run in a file |
 //! | `iteration` | one iteration: the main loop of the algorithm |
+//! | `display/` | a filter of the interreflection that the screen shows |
 //! | `session` | the rendering of one scene |
 //! | `stand_in` | the scene before an edit and its picture |
 //! | `shared` | the state that the caller and the worker share |
@@ -24,6 +25,7 @@
 
 mod checkpoint;
 mod convergence_rates;
+mod display;
 mod draft;
 mod film_merge;
 mod film_part;

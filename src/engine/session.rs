@@ -1,5 +1,6 @@
 //! The rendering of one scene.
 
+use super::display::Interreflection;
 use super::draft::Draft;
 use super::film_part::FilmPart;
 use super::film_sums::FilmSums;
@@ -39,8 +40,9 @@ pub enum SessionError {
 /// Iterations after which a picture without any light counts as black: a relative error has no meaning there.
 pub const BLACK_ITERATIONS: u64 = 64;
 
-/// Most memory for each pixel, bytes: film sums, statistics, an iteration with lobe samples, a frame and the encoded file.
-const BYTES_PER_PIXEL: u64 = 400;
+/// Most memory for each pixel, bytes: film sums, statistics, an iteration with lobe samples, the interreflection kept apart, a frame and the
+/// encoded file.
+const BYTES_PER_PIXEL: u64 = 520;
 
 /// Checks the memory for the film beforehand: the system ends a program that runs out of memory.
 fn check_memory(camera: &Camera) -> Result<(), SessionError> {
@@ -60,6 +62,10 @@ pub struct Session {
     part: FilmPart,
     /// The last draft with pixels over the whole film.
     draft: Option<Draft>,
+    /// Whether iterations add to `interreflection`.
+    keeps_interreflection: bool,
+    /// The interreflection of the iterations so far, as long as a screen shows it with less noise.
+    interreflection: Option<Interreflection>,
 }
 
 impl Session {
@@ -77,7 +83,7 @@ impl Session {
         let summary = Arc::new(PlanSummary { notes: plan.notes.clone(), warnings: warnings(&file.scene, &world) });
         let mut part = FilmPart::new(&plan);
         part.passes.prepare = start.elapsed().as_secs_f64();
-        Ok(Self { world, plan, summary, seed, part, draft: None })
+        Ok(Self { world, plan, summary, seed, part, draft: None, keeps_interreflection: false, interreflection: None })
     }
 
     /// Restricts the session to one component of the light, if one is given. Call this before the first iteration.
@@ -95,6 +101,17 @@ impl Session {
     pub fn beginning_with(mut self, first: u64) -> Self {
         self.part.film = FilmSums::after(self.plan.camera.width, self.plan.camera.height, first.saturating_sub(1));
         self
+    }
+
+    /// Keeps the interreflection of the first iterations apart, so that it can be smoothed. Call this before the first iteration.
+    pub(super) fn keeping_interreflection(mut self) -> Self {
+        self.keeps_interreflection = true;
+        self
+    }
+
+    /// The picture so far with less noise in its interreflection, for a screen; `None` where there is no need.
+    pub(super) fn smoothed(&self, image: &LinearImage) -> Option<LinearImage> {
+        self.interreflection.as_ref().map(|sums| sums.smoothed(image))
     }
 
     /// Goes on where a part of the same run ended.
@@ -127,15 +144,24 @@ impl Session {
     /// Renders the next iteration and commits it to the film; `None` when cancelled, which does not change the film.
     pub fn advance(&mut self, cancel: Cancel) -> Option<()> {
         let start = Instant::now();
-        let Self { world, plan, part, seed, .. } = self;
+        let Self { world, plan, part, seed, interreflection, keeps_interreflection, .. } = self;
         let iteration = part.rendered + 1;
         let meter = PassMeter::default();
-        let input = PassInput { world, plan, seed: *seed, iteration, cancel };
-        let refined = iterate(&input, &meter, |contribution| part.commit(plan, contribution));
+        let guides = *keeps_interreflection && (iteration == 1 || interreflection.is_some());
+        let input = PassInput { world, plan, seed: *seed, iteration, guides, cancel };
+        let refined = iterate(&input, &meter, |contribution| {
+            if guides {
+                let size = [plan.camera.width, plan.camera.height];
+                let sums = interreflection.get_or_insert_with(|| Interreflection::new(size, contribution));
+                sums.commit(plan.weight(iteration) as f32, contribution);
+            }
+            part.commit(plan, contribution)
+        });
         self.part.seconds += start.elapsed().as_secs_f64();
         if let Some(refined) = refined? {
             self.plan = refined;
         }
+        self.interreflection.take_if(|_| Interreflection::strength(self.part.film.weight()) == 0.0);
         // An iteration that only measures is no work of the film.
         if iteration >= self.part.film.first() {
             let Work { counters, seconds } = meter.work();
@@ -185,7 +211,7 @@ impl Session {
         };
         let (width, height) = (plan.camera.width, plan.camera.height);
         let meter = PassMeter::default();
-        let input = PassInput { world: &self.world, plan: &plan, seed: self.seed, iteration: 1, cancel };
+        let input = PassInput { world: &self.world, plan: &plan, seed: self.seed, iteration: 1, guides: false, cancel };
         let (pixels, sharp, first_hits) = iterate(&input, &meter, |contribution| {
             let Contribution { photons, samples, interreflection, first_hits, .. } = contribution;
             let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());
@@ -230,6 +256,7 @@ impl Session {
     }
 
     fn frame_of(&self, generation: u64, image: Arc<LinearImage>, iteration: u64, stats: Stats) -> Frame {
-        Frame { generation, draft: false, iteration, image, preview: None, stats, plan: self.summary.clone() }
+        let plan = self.summary.clone();
+        Frame { generation, draft: false, iteration, image, preview: None, smoothed: false, stats, plan }
     }
 }

@@ -18,6 +18,8 @@ pub(super) struct Request {
     pub(super) paused: bool,
     /// Estimated error at which to rest.
     pub(super) target: Option<f64>,
+    /// Whether previews have less noise in their interreflection.
+    pub(super) smooth: bool,
     /// Whether to end the thread.
     pub(super) quit: bool,
 }

@@ -12,15 +12,16 @@ use std::sync::Arc;
 pub(super) struct StandIn {
     scene: Arc<SceneFile>,
     session: Session,
-    image: LinearImage,
+    image: Arc<LinearImage>,
     /// The iterations in the picture, as full ones.
     pub(super) weight: f64,
 }
 
 impl StandIn {
-    /// The picture that the session of a scene has so far.
-    pub(super) fn new(scene: Arc<SceneFile>, session: Session) -> Self {
-        let (image, weight) = (session.film().image(), session.film().weight());
+    /// The picture that the session of a scene has so far, or `smoothed`, which has less noise.
+    pub(super) fn new(scene: Arc<SceneFile>, session: Session, smoothed: Option<Arc<LinearImage>>) -> Self {
+        let (film, weight) = (session.film(), session.film().weight());
+        let image = smoothed.unwrap_or_else(|| Arc::new(film.image()));
         Self { scene, image, weight, session: session.without_film() }
     }
 

@@ -6,6 +6,7 @@ use super::messages::Status;
 use super::session::{Session, SessionError};
 use super::shared::Shared;
 use super::stand_in::StandIn;
+use crate::film::LinearImage;
 use crate::scene::SceneFile;
 use crate::transport::{Cancel, DraftSize};
 use crossbeam_channel::Receiver;
@@ -36,6 +37,10 @@ pub(super) struct Worker {
     stand_in: Option<StandIn>,
     /// The first picture of the present scene, if another one stands in for parts of it.
     preview: Option<Preview>,
+    /// The last picture of the present scene with less noise in its interreflection.
+    smoothed: Option<Arc<LinearImage>>,
+    /// Whether previews have less noise in their interreflection.
+    smooth: bool,
     last_frame: Option<Instant>,
 }
 
@@ -44,6 +49,7 @@ struct Demands {
     quit: bool,
     paused: bool,
     target: Option<f64>,
+    smooth: bool,
 }
 
 impl Worker {
@@ -60,6 +66,8 @@ impl Worker {
             drafts: DraftPace::default(),
             stand_in: None,
             preview: None,
+            smoothed: None,
+            smooth: false,
             last_frame: None,
         }
     }
@@ -67,9 +75,13 @@ impl Worker {
     /// Works until the engine is dropped.
     pub(super) fn run(mut self) {
         loop {
-            let Demands { quit, paused, target } = self.take_demands();
+            let Demands { quit, paused, target, smooth } = self.take_demands();
             if quit {
                 return;
+            }
+            if self.smooth != smooth {
+                self.smooth = smooth;
+                self.publish_if(|iterations| iterations > 0);
             }
             let rest = match &self.session {
                 // An edit while paused still renders one iteration: otherwise a coarse draft would stay.
@@ -100,7 +112,8 @@ impl Worker {
     /// Takes the newest demands, and begins the newest scene.
     fn take_demands(&mut self) -> Demands {
         let mut request = self.shared.request();
-        let demands = Demands { quit: request.quit, paused: request.paused, target: request.target };
+        let demands =
+            Demands { quit: request.quit, paused: request.paused, target: request.target, smooth: request.smooth };
         let restart = request.restart.take();
         let scene = request.scene.take();
         drop(request);
@@ -129,7 +142,7 @@ impl Worker {
         self.preview = None;
         let previous = self.rendered.take().zip(self.session.take());
         let known = previous.as_ref().map(|(_, session)| session);
-        let mut session = self.pool.install(|| Session::prepare(&scene, self.seed, known))?;
+        let mut session = self.pool.install(|| Session::prepare(&scene, self.seed, known))?.keeping_interreflection();
         self.keep_stand_in(previous, &scene, &session);
         if let Some(frame) = self.first_picture(&mut session, generation) {
             self.shared.publish(frame);
@@ -171,7 +184,8 @@ impl Worker {
         let kept = self.stand_in.take().filter(fits);
         let least = kept.as_ref().map_or(0.0, |kept| kept.weight.min(SETTLED_WEIGHT));
         let better = previous.filter(|(_, session)| session.film().weight() > least);
-        self.stand_in = better.map(|(scene, session)| StandIn::new(scene, session)).filter(fits).or(kept);
+        let smoothed = self.smoothed.take();
+        self.stand_in = better.map(|(scene, session)| StandIn::new(scene, session, smoothed)).filter(fits).or(kept);
     }
 
     /// Renders the next draft or iteration of the current scene.
@@ -213,8 +227,13 @@ impl Worker {
         {
             let frame = session.frame(*generation);
             let weight = session.film().weight();
-            let preview = self.preview.as_ref().and_then(|preview| preview.with(&frame.image, weight)).map(Arc::new);
-            self.shared.publish(Frame { preview, ..frame });
+            self.smoothed =
+                self.smooth.then(|| self.pool.install(|| session.smoothed(&frame.image))).flatten().map(Arc::new);
+            let image = self.smoothed.as_ref().unwrap_or(&frame.image);
+            let blended = self.preview.as_ref().and_then(|preview| preview.with(image, weight)).map(Arc::new);
+            let smoothed = self.smoothed.is_some();
+            let preview = blended.or_else(|| self.smoothed.clone());
+            self.shared.publish(Frame { preview, smoothed, ..frame });
             self.last_frame = Some(Instant::now());
         }
     }

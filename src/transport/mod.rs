@@ -45,8 +45,8 @@ pub use energy::{Energy, PathEnergy, WorstBalance};
 pub use lights::{LightSampler, PhotonEmission, ProjectionMap};
 pub use pass::{Cancel, Rows};
 pub use passes::{
-    Band, CameraBatch, Contribution, FirstHit, Gathered, GatheredBatch, LobeSample, PassInput, camera_pass,
-    caustic_photon_pass, gather, global_photon_pass, lobe_samples,
+    Band, CameraBatch, Contribution, FirstHit, Gathered, GatheredBatch, Guides, LobeSample, PassInput, SeenSurface,
+    camera_pass, caustic_photon_pass, gather, global_photon_pass, lobe_samples,
 };
 pub use photons::{CausticPhotons, GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query, Splat};
 pub use plan::{CausticPlan, Component, DraftSize, MeasuredPlan, Plan, PlanItem, PlanNote, Radii, UnseenLight};

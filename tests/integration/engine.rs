@@ -203,6 +203,31 @@ fn a_restart_begins_without_the_picture_before() {
     assert!(frame.preview.is_none());
 }
 
+/// Less noise is for the screen alone: the film has the bits of a rendering without a screen. It comes and goes while the engine pauses.
+#[test]
+fn a_smoothed_preview_leaves_the_film_as_it_is() {
+    let mut file = SceneFile::built_in("cornell").expect("there is such a scene");
+    (file.scene.film.width, file.scene.film.height) = (64, 64);
+    let engine = engine();
+    engine.send(Command::Smooth(true));
+    engine.send(Command::Show(Arc::new(file.clone())));
+    let smoothed = frame_where(&engine, |frame| frame.iteration >= 2);
+    let mut session = Session::prepare(&file, 1, None).expect("the scene can be prepared");
+    while session.iterations() < smoothed.iteration {
+        session.advance(Cancel::NEVER).expect("never cancelled");
+    }
+    assert_eq!(smoothed.image, session.frame(1).image, "the same film as without a screen");
+    assert!(smoothed.smoothed && smoothed.shown() != &smoothed.image);
+    pause(&engine);
+    let held = wait_for(|| engine.newest_frame());
+    engine.send(Command::Smooth(false));
+    let as_it_is = wait_for(|| engine.newest_frame());
+    assert!(!as_it_is.smoothed && as_it_is.preview.is_none());
+    assert_eq!((as_it_is.iteration, &as_it_is.image), (held.iteration, &held.image));
+    engine.send(Command::Smooth(true));
+    assert!(wait_for(|| engine.newest_frame()).smoothed);
+}
+
 /// An engine that holds a picture.
 fn paused_engine() -> Engine {
     let engine = engine();

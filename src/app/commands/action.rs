@@ -39,6 +39,7 @@ pub(crate) enum Action {
     LookAround,
     UseView,
     MatchWindow,
+    ToggleSmoothing,
     ToggleHandles,
     ToggleXRay,
     SelectAll,
@@ -124,6 +125,7 @@ const TABLE: &[Row] = &[
     (Action::LookAround, "Look around", &[(NONE, Key::L)]),
     (Action::UseView, "Use as camera", &[]),
     (Action::MatchWindow, "Match window", &[(NONE, Key::W)]),
+    (Action::ToggleSmoothing, "Smooth interreflection", &[(NONE, Key::N)]),
     (Action::ToggleHandles, "Show handles", &[(NONE, Key::H)]),
     (Action::ToggleXRay, "Show hidden handles (X-ray)", &[(Modifiers::ALT, Key::Z)]),
     (Action::ToggleIsolines, "Show isolines", &[(CTRL, Key::K)]),
@@ -172,6 +174,10 @@ impl Action {
             }
             Self::ToggleZebra => {
                 "Stripes that the selected surface reflects: a kink in a stripe is a crease, a corner a jump of curvature"
+            }
+            Self::ToggleSmoothing => {
+                "Takes noise out of the interreflection that the screen shows while the picture has few photons. The picture itself, \
+                 exports and the error estimate stay as they are."
             }
             Self::NextMirror => "Moves control points in pairs, mirrored across a plane: off, x, y, z in turn",
             _ => "",

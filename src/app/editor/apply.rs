@@ -84,6 +84,7 @@ impl Editor {
             Action::LookAround => self.toggle_look_around(),
             Action::UseView => self.use_view(),
             Action::MatchWindow => self.canvas.matches_window = !self.canvas.matches_window,
+            Action::ToggleSmoothing => self.rendering.set_smooth(!self.rendering.is_smooth()),
             Action::ToggleHandles => self.canvas.show_handles = !self.canvas.show_handles,
             Action::ToggleXRay => self.canvas.sight.x_ray = !self.canvas.sight.x_ray,
             Action::SelectAll => self.select_all(),

@@ -76,6 +76,7 @@ impl Editor {
             navigate: canvas.navigation.always,
             look_around: self.viewpoint.looks_around(),
             match_window: canvas.matches_window,
+            smooth: self.rendering.is_smooth(),
             handles: canvas.show_handles,
             x_ray: canvas.sight.x_ray,
             analysis: canvas.analysis.analysis,

@@ -20,6 +20,7 @@ impl Editor {
         self.canvas.matches_window = preferences.match_window;
         self.canvas.analysis.analysis =
             Analysis { isolines: preferences.isolines, shading: shading(preferences.shading) };
+        self.rendering.set_smooth(preferences.smooth);
         self.rendering.set_target(Some(preferences.target_error).filter(|error| *error > 0.0));
         self.panel_sizes = preferences.panels;
         self.window_place = preferences.window;
@@ -37,6 +38,7 @@ impl Editor {
             show_handles: self.canvas.show_handles,
             x_ray: self.canvas.sight.x_ray,
             soft_selection: self.canvas.grasp.falloff.on,
+            smooth: self.rendering.is_smooth(),
             match_window: self.canvas.matches_window,
             grid: self.canvas.grasp.grid,
             isolines: self.canvas.analysis.analysis.isolines,

@@ -18,6 +18,8 @@ pub(crate) struct Preferences {
     pub(crate) soft_selection: bool,
     /// Whether the picture has the size of the canvas.
     pub(crate) match_window: bool,
+    /// Whether the screen shows less noise in the interreflection than the picture has.
+    pub(crate) smooth: bool,
     /// The step of the snapping grid, scene units; `None` for the automatic step.
     pub(crate) grid: Option<f64>,
     /// Whether lines of constant u and v are drawn over the selected surface.
@@ -44,6 +46,7 @@ impl Default for Preferences {
             x_ray: false,
             soft_selection: false,
             match_window: false,
+            smooth: true,
             grid: None,
             isolines: false,
             shading: ShadingName::default(),

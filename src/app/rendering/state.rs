@@ -19,6 +19,8 @@ pub(crate) struct Rendering {
     /// The user's wish; the engine pauses after the current iteration.
     paused: bool,
     target: Option<f64>,
+    /// Whether the screen shows less noise in the interreflection than the picture has.
+    smooth: bool,
     curve: ErrorCurve,
     submission: Submission,
     commands: Vec<Command>,
@@ -32,9 +34,10 @@ impl Rendering {
             status: Status::Idle,
             paused: false,
             target: Some(DEFAULT_TARGET),
+            smooth: true,
             curve: ErrorCurve::default(),
             submission: Submission::default(),
-            commands: vec![Command::Target(Some(DEFAULT_TARGET))],
+            commands: vec![Command::Target(Some(DEFAULT_TARGET)), Command::Smooth(true)],
         }
     }
 
@@ -87,6 +90,12 @@ impl Rendering {
         self.commands.push(Command::Target(target));
     }
 
+    /// Shows less noise in the interreflection than the picture has, or the picture as it is.
+    pub(crate) fn set_smooth(&mut self, smooth: bool) {
+        self.smooth = smooth;
+        self.commands.push(Command::Smooth(smooth));
+    }
+
     /// Takes the commands for the engine, in their order.
     pub(crate) fn take_commands(&mut self) -> Vec<Command> {
         std::mem::take(&mut self.commands)
@@ -105,6 +114,11 @@ impl Rendering {
     /// The relative error at which rendering stops; `None` never stops.
     pub(crate) fn target(&self) -> Option<f64> {
         self.target
+    }
+
+    /// Whether the screen shows less noise in the interreflection than the picture has.
+    pub(crate) fn is_smooth(&self) -> bool {
+        self.smooth
     }
 
     /// The newest frame; `None` before the first draft.

@@ -16,6 +16,8 @@ pub(crate) struct Visibility {
     pub(crate) navigate: bool,
     pub(crate) look_around: bool,
     pub(crate) match_window: bool,
+    /// Whether the screen shows less noise in the interreflection than the picture has.
+    pub(crate) smooth: bool,
     pub(crate) handles: bool,
     pub(crate) x_ray: bool,
     pub(crate) analysis: Analysis,
@@ -129,6 +131,7 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
         (Action::Navigate, visible.navigate),
         (Action::LookAround, visible.look_around),
         (Action::MatchWindow, visible.match_window),
+        (Action::ToggleSmoothing, visible.smooth),
         (Action::ToggleHandles, visible.handles),
         (Action::ToggleXRay, visible.x_ray),
         (Action::TogglePanels, visible.panels),

@@ -50,8 +50,9 @@ fn progress_text(frame: &Frame) -> String {
     }
     let stats = &frame.stats;
     let missing = stats.missing_light.map_or(String::new(), |missing| format!("; {missing}"));
+    let smoothed = if frame.smoothed { ", smoothed" } else { "" };
     format!(
-        "iteration {}, {}, {} photons{missing}",
+        "iteration {}, {}, {} photons{smoothed}{missing}",
         grouped(frame.iteration),
         duration(stats.seconds),
         grouped(stats.photons_emitted)

@@ -2,6 +2,7 @@
 
 use super::camera::{CameraBatch, FirstHit};
 use super::gathered::Gathered;
+use super::guides::Guides;
 use super::input::PassInput;
 use super::lobe_reuse::{lobe_samples, reuse_lobes};
 use super::lobe_sample::LobeSample;
@@ -11,6 +12,7 @@ use crate::transport::energy::Energy;
 use crate::transport::pass::Rows;
 use crate::transport::photons::Splat;
 use crate::transport::photons::path_blocks::concat;
+use crate::transport::points::VisiblePoint;
 
 /// One band's result, before neighbours reuse lobe samples.
 #[derive(Clone, Debug)]
@@ -27,6 +29,8 @@ pub struct Band {
     lobes: Vec<Option<LobeSample>>,
     /// In a draft, where the first ray of each pixel ended.
     first_hits: Vec<FirstHit>,
+    /// What the pixels show, if the input asks for it.
+    guides: Guides,
 }
 
 /// One iteration's contribution to the film.
@@ -42,6 +46,8 @@ pub struct Contribution {
     pub differences: Vec<BandwidthDifference>,
     /// In a draft, where the first ray of each pixel ended. Otherwise empty.
     pub first_hits: Vec<FirstHit>,
+    /// What the pixels show, if the input asks for it. Otherwise empty.
+    pub guides: Guides,
     /// What became of the flux of the photon paths.
     pub energy: Energy,
 }
@@ -54,6 +60,10 @@ impl Band {
         let (mut photons, mut interreflection) = (vec![Rgb::ZERO; pixels], vec![Rgb::ZERO; pixels]);
         let mut differences = vec![BandwidthDifference::default(); pixels];
         let mut lobes = lobe_samples(input, &seen.visible_points, rows);
+        let own = |point: &VisiblePoint| {
+            point.seen_directly || !matches!(lobes.get((point.pixel - first) as usize), Some(Some(_)))
+        };
+        let guides = Guides::new(input, rows, seen.visible_points.iter().map(|point| (point, own(point))));
         for (point, found) in seen.visible_points.iter().zip(gathered) {
             let index = (point.pixel - first) as usize;
             differences[index] += found.difference;
@@ -65,7 +75,8 @@ impl Band {
                 }
             }
         }
-        Self { photons, interreflection, samples: seen.samples, differences, lobes, first_hits: seen.first_hits }
+        let CameraBatch { samples, first_hits, .. } = seen;
+        Self { photons, interreflection, samples, differences, lobes, first_hits, guides }
     }
 }
 
@@ -85,7 +96,8 @@ impl Contribution {
         );
         reuse_lobes(bands.iter().map(|band| band.lobes.as_slice()), width, &mut photons);
         let first_hits = concat(bands, |band| &band.first_hits);
-        Self { photons, interreflection, samples, differences, first_hits, energy }
+        let guides = Guides::joined(bands, |band| &band.guides);
+        Self { photons, interreflection, samples, differences, first_hits, guides, energy }
     }
 }
 
@@ -93,7 +105,6 @@ impl Contribution {
 mod tests {
     use super::*;
     use crate::transport::plan::Plan;
-    use crate::transport::points::VisiblePoint;
     use crate::transport::testing::{self, lamp, quad, visible_point};
     use crate::world::{Lobe, Scattering, World};
     use glam::Vec3;

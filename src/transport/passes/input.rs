@@ -14,6 +14,8 @@ pub struct PassInput<'a> {
     pub seed: u64,
     /// Number of the iteration, from 1.
     pub iteration: u64,
+    /// Whether to tell what pixels show, for a filter of the picture.
+    pub guides: bool,
     /// Tells the passes when to give up.
     pub cancel: Cancel<'a>,
 }
@@ -21,7 +23,7 @@ pub struct PassInput<'a> {
 impl<'a> PassInput<'a> {
     /// The input of passes that always finish.
     pub fn uncancelled(world: &'a World, plan: &'a Plan, seed: u64, iteration: u64) -> Self {
-        Self { world, plan, seed, iteration, cancel: Cancel::NEVER }
+        Self { world, plan, seed, iteration, guides: false, cancel: Cancel::NEVER }
     }
 
     /// The sampler at this index of a sequence, of the plan's version of a stream: see [`Plan::stream`].

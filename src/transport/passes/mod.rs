@@ -11,6 +11,7 @@
 //! | `gather` | the gather pass: density estimates at visible points |
 //! | `lobe_sample` | the light that a pixel sees in its Phong lobe |
 //! | `lobe_reuse` | spatial reuse of Phong lobe samples |
+//! | `guides` | what pixels show |
 //! | `band` | one band's result, and the iteration's contribution to the film |
 
 mod band;
@@ -19,6 +20,7 @@ mod caustic_photons;
 mod gather;
 mod gathered;
 mod global_photons;
+mod guides;
 mod input;
 mod interleaving;
 mod lobe_reuse;
@@ -30,6 +32,7 @@ pub use caustic_photons::caustic_photon_pass;
 pub use gather::gather;
 pub use gathered::{Gathered, GatheredBatch};
 pub use global_photons::global_photon_pass;
+pub use guides::{Guides, SeenSurface};
 pub use input::PassInput;
 pub use lobe_reuse::lobe_samples;
 pub use lobe_sample::LobeSample;

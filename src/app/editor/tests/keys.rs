@@ -7,6 +7,8 @@ fn commands(ui: &mut Ui) -> Vec<&'static str> {
         Command::Resume => "resume",
         Command::Restart => "restart",
         Command::Target(_) => "target",
+        Command::Smooth(true) => "smooth",
+        Command::Smooth(false) => "as it is",
     };
     ui.state_mut().rendering.take_commands().into_iter().map(name).collect()
 }
@@ -14,7 +16,7 @@ fn commands(ui: &mut Ui) -> Vec<&'static str> {
 #[test]
 fn space_pauses_and_resumes_and_r_restarts() {
     let mut ui = open("cornell");
-    assert_eq!(commands(&mut ui), ["target", "show"], "rendering begins at once");
+    assert_eq!(commands(&mut ui), ["target", "smooth", "show"], "rendering begins at once");
     ui.key_press(Key::Space);
     ui.run_steps(2);
     assert_eq!(commands(&mut ui), ["pause"]);
@@ -35,6 +37,25 @@ fn space_pauses_and_resumes_and_r_restarts() {
     ui.key_press(Key::R);
     ui.run_steps(2);
     assert_eq!(commands(&mut ui), ["restart"]);
+}
+
+#[test]
+fn n_shows_the_interreflection_smoothed_or_as_it_is() {
+    let mut ui = open("cornell");
+    commands(&mut ui);
+    let is_told = |ui: &Ui| ui.query_by_label_contains(", smoothed").is_some();
+    receive(&mut ui, frame(1, false, 16));
+    assert!(!is_told(&ui));
+    let smoothed = Frame { smoothed: true, ..Frame::clone(&frame(1, false, 16)) };
+    receive(&mut ui, Arc::new(smoothed));
+    assert!(is_told(&ui), "the status bar tells that the screen shows less noise");
+    ui.key_press(Key::N);
+    ui.run_steps(2);
+    assert_eq!(commands(&mut ui), ["as it is"]);
+    choose_from_menu(&mut ui, &["View"]);
+    ui.get_by_label_contains("Smooth interreflection").click();
+    ui.run_steps(2);
+    assert_eq!(commands(&mut ui), ["smooth"]);
 }
 
 #[test]

@@ -148,7 +148,16 @@ fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
         energy: Energy::default(),
     };
     let image = Arc::new(LinearImage { width: size, height: size, pixels });
-    Arc::new(Frame { generation, draft, iteration: 3, image, preview: None, stats, plan: Arc::new(plan) })
+    Arc::new(Frame {
+        generation,
+        draft,
+        iteration: 3,
+        image,
+        preview: None,
+        smoothed: false,
+        stats,
+        plan: Arc::new(plan),
+    })
 }
 
 fn receive(ui: &mut Ui, frame: Arc<Frame>) {

@@ -32,7 +32,7 @@ fn theme(ui: &Ui) -> ThemePreference {
 fn the_next_window_has_the_looks_of_the_window_before() {
     let home = folder();
     let mut first = open_in(home.path());
-    for action in [Action::ToggleHandles, Action::ToggleHistory] {
+    for action in [Action::ToggleHandles, Action::ToggleHistory, Action::ToggleSmoothing] {
         apply(&mut first, AppCommand::Do(action));
     }
     apply(&mut first, AppCommand::Theme(ThemePreference::Light));
@@ -41,6 +41,7 @@ fn the_next_window_has_the_looks_of_the_window_before() {
     let mut second = open_in(home.path());
     let editor = second.state();
     assert_eq!((editor.canvas.show_handles, editor.show_history, editor.show_panels), (false, true, true));
+    assert!(!editor.rendering.is_smooth(), "the usual window smooths");
     assert_eq!((editor.rendering.target(), theme(&second)), (None, ThemePreference::Light));
     apply(&mut second, AppCommand::Target(Some(0.02)));
     apply(&mut second, AppCommand::Do(Action::TogglePanels));
