@@ -1,11 +1,12 @@
 //! What the screen shows after an edit and during a drag, and how far it is from the converged picture:
-//! `cargo bench --bench latency --features flip [-- SCENE ...] [SIDE ...]`.
+//! `cargo bench --bench latency --features flip [-- SCENE ...] [SIDE ...] [TABLE ...]`.
 //!
 //! | file | holds |
 //! |---|---|
 //! | `edit` | edits of a scene |
 //! | `recorder` | an engine whose frames are recorded |
 //! | `screen` | what a screen shows, and its distance from the converged picture |
+//! | `start` | what the screen shows after a start |
 //! | `caustic` | how well a picture shows the caustic |
 
 #![allow(clippy::expect_used, reason = "a measurement that cannot go on has failed")]
@@ -15,6 +16,7 @@ mod caustic;
 mod edit;
 mod recorder;
 mod screen;
+mod start;
 
 use caustic::Caustic;
 use edit::Edit;
@@ -26,6 +28,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// The tables, of which arguments choose some.
+const TABLES: [&str; 3] = ["starts", "edits", "drags"];
 const SIDES: [u32; 2] = [512, 1024];
 /// Times after an edit, milliseconds.
 const TIMES: [u64; 6] = [33, 66, 100, 200, 500, 1000];
@@ -46,13 +50,22 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     let (sides, names): (Vec<_>, Vec<_>) = arguments.iter().partition(|argument| argument.parse::<u32>().is_ok());
     let sides: Vec<u32> = sides.iter().filter_map(|side| side.parse().ok()).collect();
-    let names: Vec<&str> = names.into_iter().map(String::as_str).collect();
+    let (tables, names): (Vec<&str>, Vec<&str>) =
+        names.into_iter().map(String::as_str).partition(|word| TABLES.contains(word));
+    let wanted = |table: &str| tables.is_empty() || tables.contains(&table);
     let all: Vec<&str> = built_in_scenes().iter().map(|scene| scene.name).collect();
     for side in if sides.is_empty() { SIDES.to_vec() } else { sides } {
         let files: Vec<(&str, SceneFile)> =
             if names.is_empty() { &all } else { &names }.iter().map(|name| (*name, of_side(name, side))).collect();
-        edits(&files, side);
-        drags(&files, side);
+        if wanted("starts") {
+            start::table(&files, side);
+        }
+        if wanted("edits") {
+            edits(&files, side);
+        }
+        if wanted("drags") {
+            drags(&files, side);
+        }
     }
 }
 

@@ -27,6 +27,7 @@ impl Recorder {
         // A full channel already announces a new frame.
         let wake = move || wake.try_send(()).unwrap_or_default();
         let engine = Engine::start(EngineSettings { threads: None, seed: 1 }, wake).expect("there are threads");
+        engine.send(Command::Smooth(true));
         Self { engine, woken, sent: Vec::new(), frames: Vec::new() }
     }
 
