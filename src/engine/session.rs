@@ -64,6 +64,8 @@ pub struct Session {
     draft: Option<Draft>,
     /// Whether iterations add to `interreflection`.
     keeps_interreflection: bool,
+    /// Whether drafts come with less noise in their interreflection, too.
+    smooths_drafts: bool,
     /// The interreflection of the iterations so far, as long as a screen shows it with less noise.
     interreflection: Option<Interreflection>,
 }
@@ -83,7 +85,17 @@ impl Session {
         let summary = Arc::new(PlanSummary { notes: plan.notes.clone(), warnings: warnings(&file.scene, &world) });
         let mut part = FilmPart::new(&plan);
         part.passes.prepare = start.elapsed().as_secs_f64();
-        Ok(Self { world, plan, summary, seed, part, draft: None, keeps_interreflection: false, interreflection: None })
+        Ok(Self {
+            world,
+            plan,
+            summary,
+            seed,
+            part,
+            draft: None,
+            keeps_interreflection: false,
+            smooths_drafts: false,
+            interreflection: None,
+        })
     }
 
     /// Restricts the session to one component of the light, if one is given. Call this before the first iteration.
@@ -106,6 +118,12 @@ impl Session {
     /// Keeps the interreflection of the first iterations apart, so that it can be smoothed. Call this before the first iteration.
     pub(super) fn keeping_interreflection(mut self) -> Self {
         self.keeps_interreflection = true;
+        self
+    }
+
+    /// Makes drafts, or not, with less noise in their interreflection, too.
+    pub(super) fn smoothing_drafts(mut self, smooth: bool) -> Self {
+        self.smooths_drafts = smooth;
         self
     }
 
@@ -211,18 +229,26 @@ impl Session {
         };
         let (width, height) = (plan.camera.width, plan.camera.height);
         let meter = PassMeter::default();
-        let input = PassInput { world: &self.world, plan: &plan, seed: self.seed, iteration: 1, guides: false, cancel };
-        let (pixels, sharp, first_hits) = iterate(&input, &meter, |contribution| {
+        let input = PassInput {
+            world: &self.world,
+            plan: &plan,
+            seed: self.seed,
+            iteration: 1,
+            guides: self.smooths_drafts,
+            cancel,
+        };
+        let (image, smoothed, sharp, first_hits) = iterate(&input, &meter, |contribution| {
             let Contribution { photons, samples, interreflection, first_hits, .. } = contribution;
             let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());
             let pixels: Vec<Rgb> = pixels.collect();
             let sharp = pixels.iter().zip(interreflection).map(|(all, smooth)| *all - *smooth).collect();
-            (pixels, sharp, first_hits.clone())
+            let image = LinearImage::positive_part(width, height, pixels);
+            let smoothed = self.smooths_drafts.then(|| Arc::new(smoothed_draft(&image, contribution)));
+            (image, smoothed, sharp, first_hits.clone())
         })?;
-        let image = LinearImage::positive_part(width, height, pixels);
         let Work { counters, seconds } = meter.work();
         let stats = Stats::of_work(counters, seconds, start.elapsed().as_secs_f64());
-        Some(Draft { size, image: Arc::new(image), sharp, first_hits, stats })
+        Some(Draft { size, image: Arc::new(image), smoothed, sharp, first_hits, stats })
     }
 
     /// A draft of this size with pixels over the whole film; kept for the next call. Never cancelled.
@@ -233,9 +259,16 @@ impl Session {
         self.draft.as_ref()
     }
 
-    /// A draft, or another picture of the scene that is no film, as a frame of this generation.
-    pub(super) fn frame_of_draft(&self, generation: u64, image: Arc<LinearImage>, stats: Stats) -> Frame {
-        Frame { draft: true, ..self.frame_of(generation, image, 0, stats) }
+    /// A draft, or another picture of the scene that is no film, as a frame of this generation. A screen shows it `smoothed`, if that is given.
+    pub(super) fn frame_of_draft(
+        &self,
+        generation: u64,
+        image: Arc<LinearImage>,
+        smoothed: Option<Arc<LinearImage>>,
+        stats: Stats,
+    ) -> Frame {
+        let frame = self.frame_of(generation, image, 0, stats);
+        Frame { draft: true, smoothed: smoothed.is_some(), preview: smoothed, ..frame }
     }
 
     /// The session without its iterations: its scene, for drafts.
@@ -259,4 +292,11 @@ impl Session {
         let plan = self.summary.clone();
         Frame { generation, draft: false, iteration, image, preview: None, smoothed: false, stats, plan }
     }
+}
+
+/// A draft with less noise in its interreflection.
+fn smoothed_draft(image: &LinearImage, contribution: &Contribution) -> LinearImage {
+    let mut sums = Interreflection::new([image.width, image.height], contribution);
+    sums.commit(1.0, contribution);
+    sums.smoothed(image)
 }

@@ -49,7 +49,6 @@ struct Demands {
     quit: bool,
     paused: bool,
     target: Option<f64>,
-    smooth: bool,
 }
 
 impl Worker {
@@ -75,12 +74,12 @@ impl Worker {
     /// Works until the engine is dropped.
     pub(super) fn run(mut self) {
         loop {
-            let Demands { quit, paused, target, smooth } = self.take_demands();
+            let shows_smooth = self.smooth;
+            let Demands { quit, paused, target } = self.take_demands();
             if quit {
                 return;
             }
-            if self.smooth != smooth {
-                self.smooth = smooth;
+            if self.smooth != shows_smooth {
                 self.publish_if(|iterations| iterations > 0);
             }
             let rest = match &self.session {
@@ -112,8 +111,8 @@ impl Worker {
     /// Takes the newest demands, and begins the newest scene.
     fn take_demands(&mut self) -> Demands {
         let mut request = self.shared.request();
-        let demands =
-            Demands { quit: request.quit, paused: request.paused, target: request.target, smooth: request.smooth };
+        let demands = Demands { quit: request.quit, paused: request.paused, target: request.target };
+        self.smooth = request.smooth;
         let restart = request.restart.take();
         let scene = request.scene.take();
         drop(request);
@@ -142,7 +141,8 @@ impl Worker {
         self.preview = None;
         let previous = self.rendered.take().zip(self.session.take());
         let known = previous.as_ref().map(|(_, session)| session);
-        let mut session = self.pool.install(|| Session::prepare(&scene, self.seed, known))?.keeping_interreflection();
+        let mut session = self.pool.install(|| Session::prepare(&scene, self.seed, known))?;
+        session = session.keeping_interreflection().smoothing_drafts(self.smooth);
         self.keep_stand_in(previous, &scene, &session);
         if let Some(frame) = self.first_picture(&mut session, generation) {
             self.shared.publish(frame);
@@ -161,9 +161,9 @@ impl Worker {
         let start = Instant::now();
         let draft = pool.install(|| session.whole_draft(size))?;
         drafts.first_took(draft);
-        let (image, stats) = (draft.image.clone(), draft.stats);
+        let (image, smoothed, stats) = (draft.image.clone(), draft.smoothed.clone(), draft.stats);
         let Some(preview) = before.map(|before| pool.install(|| before.preview(camera, draft))) else {
-            return Some(session.frame_of_draft(generation, image, stats));
+            return Some(session.frame_of_draft(generation, image, smoothed, stats));
         };
         let spent = start.elapsed().as_secs_f64();
         let coarseness = drafts.of_changes(pixels, preview.doubtful_fraction(), spent);
@@ -174,7 +174,7 @@ impl Worker {
         let preview = finer.map_or_else(|| preview.clone(), |finer| pool.install(|| preview.refined(&finer)));
         let image = preview.image.clone();
         self.preview = Some(preview);
-        Some(session.frame_of_draft(generation, image, stats))
+        Some(session.frame_of_draft(generation, image, None, stats))
     }
 
     /// Keeps the picture of the previous scene for the edits that follow, if the one that is kept does not fit the next scene, or has
@@ -209,8 +209,11 @@ impl Worker {
             self.drafts.next_took(coarseness, start.elapsed().as_secs_f64());
             if let Some(draft) = draft {
                 self.preview = self.preview.as_ref().map(|preview| preview.refined(&draft));
-                let image = self.preview.as_ref().map_or(draft.image, |preview| preview.image.clone());
-                self.shared.publish(session.frame_of_draft(generation, image, draft.stats));
+                let (image, smoothed) = match &self.preview {
+                    Some(preview) => (preview.image.clone(), None),
+                    None => (draft.image, draft.smoothed),
+                };
+                self.shared.publish(session.frame_of_draft(generation, image, smoothed, draft.stats));
             }
             return Ok(());
         }

@@ -211,6 +211,8 @@ fn a_smoothed_preview_leaves_the_film_as_it_is() {
     let engine = engine();
     engine.send(Command::Smooth(true));
     engine.send(Command::Show(Arc::new(file.clone())));
+    let draft = frame_where(&engine, |frame| frame.draft);
+    assert!(draft.smoothed && draft.shown() != &draft.image, "drafts are smoothed, too");
     let smoothed = frame_where(&engine, |frame| frame.iteration >= 2);
     let mut session = Session::prepare(&file, 1, None).expect("the scene can be prepared");
     while session.iterations() < smoothed.iteration {
@@ -225,7 +227,12 @@ fn a_smoothed_preview_leaves_the_film_as_it_is() {
     assert!(!as_it_is.smoothed && as_it_is.preview.is_none());
     assert_eq!((as_it_is.iteration, &as_it_is.image), (held.iteration, &held.image));
     engine.send(Command::Smooth(true));
-    assert!(wait_for(|| engine.newest_frame()).smoothed);
+    let before = wait_for(|| engine.newest_frame());
+    assert!(before.smoothed);
+    engine.send(Command::Show(Arc::new(file)));
+    let after = frame_where(&engine, |frame| frame.generation == 2);
+    let pairs = || after.image.pixels.iter().zip(&before.shown().pixels);
+    assert!(pairs().all(|(a, b)| (*a - *b).abs().max_element() < 1e-4), "the smoothed picture stands in");
 }
 
 /// An engine that holds a picture.

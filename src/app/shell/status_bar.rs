@@ -45,12 +45,12 @@ fn status_text(ui: &Ui, rendering: &Rendering) -> (&'static str, Color32) {
 }
 
 fn progress_text(frame: &Frame) -> String {
+    let smoothed = if frame.smoothed { ", smoothed" } else { "" };
     if frame.draft {
-        return "draft".to_owned();
+        return format!("draft{smoothed}");
     }
     let stats = &frame.stats;
     let missing = stats.missing_light.map_or(String::new(), |missing| format!("; {missing}"));
-    let smoothed = if frame.smoothed { ", smoothed" } else { "" };
     format!(
         "iteration {}, {}, {} photons{smoothed}{missing}",
         grouped(frame.iteration),

@@ -7,9 +7,7 @@ use rayon::prelude::*;
 
 /// Blocks along a side of a cell, in which squares are summed.
 const CELL: u32 = 4;
-/// Noise counts for this many times what the halves tell. Chosen by measurement, as are the following two.
-const CAUTION: f32 = 1.5;
-/// The mean square of noise over the median square: few photons bring much of the light.
+/// The mean square of noise over the median square: few photons bring much of the light. Chosen by measurement, as is the following.
 const MEAN_TO_MEDIAN: f32 = 8.0;
 /// The widest details, by the steps of their level, that may be noise after a single iteration: wider ones are mostly light.
 const WIDEST_OF_ONE: u32 = 16;
@@ -50,7 +48,7 @@ pub(super) fn noise_fractions(
 impl Energy {
     /// What two halves of the iterations have in common is signal, what they differ in is noise.
     fn of_two(Halves([a, b]): Halves, weights: [f32; 2]) -> Self {
-        Self { signal: a.dot(b), noise: CAUTION * weights[0] * weights[1] * (a - b).length_squared() }
+        Self { signal: a.dot(b), noise: weights[0] * weights[1] * (a - b).length_squared() }
     }
 
     /// A single half, with noise that is known otherwise.

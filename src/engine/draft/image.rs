@@ -13,6 +13,8 @@ pub struct Draft {
     pub size: DraftSize,
     /// Linear radiance; black in pixels that were left out.
     pub image: Arc<LinearImage>,
+    /// The picture with less noise in its interreflection, if that was asked for.
+    pub smoothed: Option<Arc<LinearImage>>,
     /// The part of each pixel that is no interreflection: its edges are sharp.
     pub sharp: Vec<Rgb>,
     /// Where the first ray of each pixel ended.
@@ -22,6 +24,11 @@ pub struct Draft {
 }
 
 impl Draft {
+    /// The picture for a screen.
+    pub(in crate::engine) fn shown(&self) -> &Arc<LinearImage> {
+        self.smoothed.as_ref().unwrap_or(&self.image)
+    }
+
     /// Pixels per row, and rows.
     pub(super) fn pixel_size(&self) -> [u32; 2] {
         [self.image.width, self.image.height]
@@ -35,6 +42,13 @@ impl Draft {
         let sharp = pixels.iter().map(|pixel| sharp * *pixel).collect();
         let first_hits = vec![FirstHit { depth, is_matte: true }; pixels.len()];
         let image = LinearImage { width, height: pixels.len() as u32 / width, pixels };
-        Self { size: DraftSize::FULL, image: Arc::new(image), sharp, first_hits, stats: Stats::default() }
+        Self {
+            size: DraftSize::FULL,
+            image: Arc::new(image),
+            smoothed: None,
+            sharp,
+            first_hits,
+            stats: Stats::default(),
+        }
     }
 }

@@ -110,7 +110,7 @@ impl Preview {
 /// A picture of the size of `film`: the picture that stands in where it is trusted, the draft elsewhere.
 fn mixed(film: &LinearImage, stand_in: &[Substitute], draft: &Draft) -> LinearImage {
     let size = [film.width, film.height];
-    let drafted = Enlarged::new(&draft.image.pixels, draft.pixel_size(), size, Rgb::lerp);
+    let drafted = Enlarged::new(&draft.shown().pixels, draft.pixel_size(), size, Rgb::lerp);
     let pixels = composed(film, |y| {
         let stand_in = &stand_in[(y * film.width) as usize..][..film.width as usize];
         let mix = |(drafted, old): (Rgb, &Substitute)| drafted.lerp(old.radiance.max(Rgb::ZERO), old.trust);
@@ -166,6 +166,8 @@ mod tests {
         assert!((preview().doubtful_fraction() - 2.0 / 3.0).abs() < 1e-9);
         let draft = Draft::of_pixels(3, vec![Rgb::splat(9.0); 3], 1.0, 1.0);
         assert_eq!(values(&preview().refined(&draft).image), [1.0, 5.5, 9.0]);
+        let smoothed = Draft { smoothed: Some(Arc::new(image([7.0; 3]))), ..draft };
+        assert_eq!(values(&preview().refined(&smoothed).image), [1.0, 4.5, 7.0], "as a screen shows it");
     }
 
     #[test]
