@@ -25,7 +25,7 @@ pub(super) struct Blocks {
 impl Blocks {
     /// The blocks of a film of this width and height whose pixels show these surfaces.
     pub(super) fn new(film: [u32; 2], seen: &[Option<SeenSurface>]) -> Self {
-        let surfaces = seen.iter().map(|seen| Guide::new(*seen).surface).collect();
+        let surfaces = seen.par_iter().map(|seen| Guide::new(*seen).surface).collect();
         let size = film.map(|pixels| pixels.div_ceil(SIDE));
         let mut blocks = Self { film, size, surfaces, guides: Vec::new() };
         blocks.guides = blocks.each(|block| blocks.guide(block, seen));
@@ -52,19 +52,22 @@ impl Blocks {
     }
 
     fn guide(&self, block: [u32; 2], seen: &[Option<SeenSurface>]) -> Guide {
-        let guides = self.pixels_of(block).map(|pixel| Guide::new(seen[pixel]));
-        let on = |surface: u32| guides.clone().filter(move |guide| guide.surface == surface);
-        let shown = guides.clone().filter(|guide| guide.surface != Guide::NONE.surface);
-        let Some(most) = shown.max_by_key(|guide| on(guide.surface).count()) else { return Guide::NONE };
+        let surfaces = || self.pixels_of(block).map(|pixel| self.surfaces[pixel]);
+        let count = |surface: u32| surfaces().filter(|other| *other == surface).count();
+        let Some(surface) = surfaces().filter(|surface| *surface != Guide::NONE.surface).max_by_key(|k| count(*k))
+        else {
+            return Guide::NONE;
+        };
         let (mut normal, mut position, mut footprint) = (Vec3::ZERO, Vec3::ZERO, 0.0);
-        for guide in on(most.surface) {
+        for pixel in self.pixels_of(block).filter(|pixel| self.surfaces[*pixel] == surface) {
+            let guide = Guide::new(seen[pixel]);
             normal += guide.normal;
             position += guide.position;
             footprint += guide.footprint;
         }
-        let count = on(most.surface).count() as f32;
+        let count = count(surface) as f32;
         let normal = normal.normalize_or_zero();
-        Guide { position: position / count, normal, footprint: footprint / count, ..most }
+        Guide { position: position / count, normal, footprint: footprint / count, surface }
     }
 }
 

@@ -33,10 +33,16 @@ impl Guide {
         seen.map_or(Self::NONE, of_surface)
     }
 
-    /// How alike the light at two points this many pixels apart can be expected to be, from 0 to 1: 0 on different surfaces, less for
-    /// different normals and where one point lies off the tangent plane of the other.
-    #[inline(always)]
-    pub(super) fn likeness(&self, other: &Self, pixels: f32) -> f32 {
+    /// The distance from the tangent plane at which half of the weight is left for points this many pixels away; its inverse.
+    #[inline]
+    pub(super) fn flatness(&self, pixels: f32) -> f32 {
+        1.0 / (OFF_PLANE * self.footprint * pixels)
+    }
+
+    /// How alike the light at two points can be expected to be, from 0 to 1: 0 on different surfaces, less for different normals and where
+    /// one point lies off the tangent plane of the other, given the [`Self::flatness`] for the distance between their pixels.
+    #[inline]
+    pub(super) fn likeness(&self, other: &Self, flatness: f32) -> f32 {
         if self.surface != other.surface {
             return 0.0;
         }
@@ -44,7 +50,7 @@ impl Guide {
         for _ in 0..NORMAL_SQUARINGS {
             by_normal *= by_normal;
         }
-        let off_plane = self.normal.dot(other.position - self.position) / (OFF_PLANE * self.footprint * pixels);
+        let off_plane = self.normal.dot(other.position - self.position) * flatness;
         by_normal / (1.0 + off_plane * off_plane)
     }
 }

@@ -67,8 +67,9 @@ impl Blocks {
             return Rgb::ZERO;
         }
         let own = &self.guides[self.index([x / SIDE, y / SIDE])];
+        let flatness = own.flatness(SIDE as f32);
         let likeness = |guide: &Guide| {
-            if own.surface == surface { own.likeness(guide, SIDE as f32) } else { f32::from(guide.surface == surface) }
+            if own.surface == surface { own.likeness(guide, flatness) } else { f32::from(guide.surface == surface) }
         };
         let on_blocks = |at: u32| (at as f32 + 0.5) / SIDE as f32;
         let (mut sum, mut weights) = (Rgb::ZERO, 0.0);

@@ -46,19 +46,27 @@ impl Level {
 }
 
 fn weights(blocks: &Blocks, [column, row]: [u32; 2], step: u32) -> [f32; 9] {
-    let guide = &blocks.guides[blocks.index([column, row])];
-    let weight = |k: usize| {
-        let [dx, dy] = [k % 3, k / 3];
-        if k == 4 || guide.surface == Guide::NONE.surface {
-            return if k == 4 { 1.0 } else { 0.0 };
+    let [width, height] = blocks.size;
+    let own = blocks.index([column, row]);
+    let guide = &blocks.guides[own];
+    let mut weights = [0.0; 9];
+    weights[4] = 1.0;
+    if guide.surface == Guide::NONE.surface {
+        return weights;
+    }
+    let flatness = guide.flatness((step * SIDE) as f32);
+    let mut sum = 0.0;
+    for (dy, by_row) in (0..3).zip(KERNEL) {
+        // Wraps around above the first row.
+        let y = (row + dy * step).wrapping_sub(step);
+        for (dx, by_column) in (0..3).zip(KERNEL) {
+            let x = (column + dx * step).wrapping_sub(step);
+            let weight = &mut weights[(3 * dy + dx) as usize];
+            if (dx, dy) != (1, 1) && x < width && y < height {
+                *weight = by_row * by_column * guide.likeness(&blocks.guides[blocks.index([x, y])], flatness);
+            }
+            sum += *weight;
         }
-        let moved = |at: u32, by: usize| (at + by as u32 * step).wrapping_sub(step);
-        let [x, y] = [moved(column, dx), moved(row, dy)];
-        let is_inside = x < blocks.size[0] && y < blocks.size[1];
-        let likeness = |other: &Guide| guide.likeness(other, (step * SIDE) as f32);
-        if is_inside { KERNEL[dx] * KERNEL[dy] * likeness(&blocks.guides[blocks.index([x, y])]) } else { 0.0 }
-    };
-    let weights: [f32; 9] = std::array::from_fn(weight);
-    let sum: f32 = weights.iter().sum();
+    }
     weights.map(|weight| weight / sum)
 }
