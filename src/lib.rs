@@ -21,7 +21,7 @@
 //!                                                             |        ▼
 //!                                                             |   a draft, never cancelled, then finer drafts, then 1, 2, ...
 //!                                                             |   ┌─ iteration i ───────────────────────────────┐
-//!                                                             |   │ photon passes ─► photons, splats            │
+//!                                                             |   │ photon passes ─► sheets, photons, splats    │
 //!                                                             |   │ photon maps   ─► four kd-trees              │
 //!                                                             |   │ in bands of rows:                           │
 //!                                                             |   │   camera pass ─► visible points, samples    │
@@ -115,6 +115,7 @@
 //! | `n_geom`, `n_side`, `n_shade` | unit normal of a surface's front; of the side that the path is on; on that side, perturbed by a normal or height map |
 //! | `eta` | index of refraction behind an interface over the index in front of it |
 //! | specular, glossy | scattering into one direction by a mirror or glass; into a Phong lobe |
+//! | light sheet, signature | the light of a lamp that goes by one sequence of mirrors and glass, as cells on the surface where it lands; that sequence |
 //! | component | direct light (with emission), caustics or interreflection: every path of light belongs to one of them |
 //! | caustic | light that met only mirrors or glass between the light and the visible point |
 //! | indirect caustic | light that mirrors or glass send on after a diffuse or glossy surface scattered it |
@@ -210,6 +211,7 @@
 //!   Comput. 30, 2008.
 //! - \[JonesFoster96\] M. C. Jones, P. J. Foster, A Simple Nonnegative Boundary Correction Method for Kernel Density Estimation, Statistica
 //!   Sinica 6, 1996.
+//! - \[KamelFaloutsos93\] I. Kamel, C. Faloutsos, On Packing R-trees, CIKM 1993.
 //! - \[KD13\] A. Kaplanyan, C. Dachsbacher, Adaptive Progressive Photon Mapping, ACM TOG 32(2), 2013.
 //! - \[KellerHeidrich01\] A. Keller, W. Heidrich, Interleaved Sampling, EGWR 2001.
 //! - \[KZ11\] C. Knaus, M. Zwicker, Progressive Photon Mapping: A Probabilistic Approach, ACM TOG 30(3), 2011.
@@ -217,15 +219,19 @@
 //!   Rendering, KU Leuven CW 197, 1994.
 //! - \[LaineKarras11\] S. Laine, T. Karras, Stratified Sampling for Stochastic Transparency, EGSR 2011.
 //! - \[Mitchell96\] D. P. Mitchell, Consequences of Stratified Sampling in Graphics, SIGGRAPH 1996.
+//! - \[Morton66\] G. M. Morton, A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing, IBM 1966.
 //! - \[Neyman34\] J. Neyman, On the Two Different Aspects of the Representative Method, J. Royal Statistical Society 97(4),
 //!   1934.
 //! - \[Owen97\] A. B. Owen, Scrambled Net Variance for Integrals of Smooth Functions, Annals of Statistics 25(4), 1997.
 //! - \[Reinhard02\] E. Reinhard et al., Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002.
 //! - \[Schuessler17\] V. Schüßler et al., Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing, ACM TOG 36(6), 2017.
 //! - \[ShirleyChiu97\] P. Shirley, K. Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997.
+//! - \[SutherlandHodgman74\] I. Sutherland, G. Hodgman, Reentrant Polygon Clipping, CACM 17(1), 1974.
+//! - \[Umenhoffer08\] T. Umenhoffer, G. Patow, L. Szirmay-Kalos, Caustic Triangles on the GPU, CGI 2008.
 //! - \[Ward88\] G. Ward, F. Rubinstein, R. Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988.
 //! - \[VanOosterom83\] A. Van Oosterom, J. Strackee, The Solid Angle of a Plane Triangle, IEEE Trans. Biomed. Eng. 30(2), 1983.
 //! - \[Veach97\] E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, Stanford, 1997.
+//! - \[Watt90\] M. Watt, Light-Water Interaction Using Backward Beam Tracing, SIGGRAPH 1990.
 
 #[cfg(feature = "gui")]
 pub mod app;

@@ -10,7 +10,7 @@ use patchlight::engine::Session;
 use patchlight::math::{Sampler, Stream};
 use patchlight::scene::{Emitter, Light, SceneFile, Shape};
 use patchlight::transport::{
-    CameraBatch, Cancel, Maps, PassInput, PhotonMap, Plan, camera_pass, gather, global_photon_pass,
+    CameraBatch, Cancel, LightSheets, Maps, PassInput, PhotonMap, Plan, camera_pass, gather, global_photon_pass,
 };
 use patchlight::world::prepare;
 use rayon::prelude::*;
@@ -176,7 +176,9 @@ fn photons() {
         let batch = batch.expect("never cancelled");
         let (build, global) = seconds(|| PhotonMap::build(&batch.photons));
         let maps = Maps { global, ..Maps::default() };
-        let gather = |batch: &CameraBatch| gather(&input, &maps, batch).expect("never cancelled").points;
+        let gather = |batch: &CameraBatch| {
+            gather(&input, &maps, &LightSheets::default(), batch).expect("never cancelled").points
+        };
         let (gather, _) = seconds(|| seen.par_iter().map(gather).collect::<Vec<_>>());
         let (count, megabytes) = (batch.photons.len(), maps.global.memory_bytes() as f64 / f64::from(1 << 20));
         println!("| {paths} | {count} | {photon_pass:.3} | {build:.3} | {gather:.3} | {megabytes:.1} MB |");

@@ -112,7 +112,7 @@ fn iteration(world: &World, plan: &Plan) -> f64 {
     };
     let band = |rows| {
         let seen: CameraBatch = camera_pass(&input, &rows).expect("never cancelled");
-        gather(&input, &maps, &seen).expect("never cancelled").points.len()
+        gather(&input, &maps, &caustic.sheets, &seen).expect("never cancelled").points.len()
     };
     let gathered: usize = plan.bands(ITERATION).into_par_iter().map(band).sum();
     std::hint::black_box(gathered);

@@ -18,7 +18,7 @@ pub fn iterate<T>(input: &PassInput, meter: &PassMeter, commit: impl FnOnce(&Con
     let maps = meter.run(Pass::Map, || Maps::build(&caustic.photons, of_interreflection));
     let band = |rows: Rows| {
         let seen = meter.run_band(Pass::Camera, || camera_pass(input, &rows))?;
-        let gathered = meter.run_band(Pass::Gather, || gather(input, &maps, &seen))?;
+        let gathered = meter.run_band(Pass::Gather, || gather(input, &maps, &caustic.sheets, &seen))?;
         Some(Band::new(input, &rows, seen, &gathered.points))
     };
     let bands: Vec<Band> = plan.bands(input.iteration).into_par_iter().map(band).collect::<Option<_>>()?;

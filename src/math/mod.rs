@@ -28,7 +28,31 @@ pub use aabb::Aabb;
 pub use lanes::{LANES, Lanes};
 pub use orthonormal_basis::OrthonormalBasis;
 pub use ray::Ray;
-pub use sobol::{Sampler, Stream};
+pub use sobol::{Sampler, Stream, mix64};
+
+/// The index of a cell along the Z-order curve of the plane: the bits of its coordinates, below 2^16, in turn \[Morton66\].
+pub fn morton_2d(cell: glam::UVec2) -> u32 {
+    let spread = |x: u32| {
+        let x = (x | x << 8) & 0x00ff_00ff;
+        let x = (x | x << 4) & 0x0f0f_0f0f;
+        let x = (x | x << 2) & 0x3333_3333;
+        (x | x << 1) & 0x5555_5555
+    };
+    spread(cell.x) | spread(cell.y) << 1
+}
 
 /// A linear Rec.709 colour, radiance, flux or weight: one value a channel.
 pub type Rgb = glam::Vec3;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::UVec2;
+
+    #[test]
+    fn the_z_order_curve_goes_square_by_square() {
+        let curve = [[0, 0], [1, 0], [0, 1], [1, 1], [2, 0]];
+        assert_eq!(curve.map(|cell| morton_2d(UVec2::from(cell))), [0, 1, 2, 3, 4]);
+        assert_eq!(morton_2d(UVec2::new(0xffff, 0)), 0x5555_5555);
+    }
+}

@@ -21,6 +21,9 @@ pub enum Stream {
     GatheringSample,
     /// Direction of a visibility polygon's first corner, one sequence per pixel, one index per iteration.
     VisibilityPolygon,
+    /// Where a light's lattice of sheets lies, and the point of the lamp from which it begins; one sequence per light, one index per
+    /// iteration.
+    LightSheets,
     /// The stream with this number in draft frames, whose numbers are independent of the converging picture.
     Draft(u8),
 }
@@ -35,6 +38,7 @@ impl Stream {
             Self::Probe => 4,
             Self::GatheringSample => 6,
             Self::VisibilityPolygon => 7,
+            Self::LightSheets => 8,
             Self::Draft(number) => 0x80 | number,
         }
     }
@@ -98,7 +102,7 @@ impl Sampler {
 }
 
 /// A 64-bit hash: the finalizer of SplitMix64.
-fn mix64(x: u64) -> u64 {
+pub fn mix64(x: u64) -> u64 {
     let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -7,8 +7,8 @@
 //! |---|---|---|---|
 //! | emission | `L S* E` | direct | [`camera_pass`] |
 //! | direct light | `L D S* E` | direct | [`camera_pass`], next event estimation |
-//! | visible caustics | `L S+ D E` | caustics | [`caustic_photon_pass`]: splats where the caustic is sharp, else density estimate |
-//! | caustics in mirrors and glass | `L S+ D S+ E` | caustics | [`caustic_photon_pass`], density estimate |
+//! | visible caustics | `L S+ D E` | caustics | [`caustic_photon_pass`]: light sheets; for the rest splats where the caustic is sharp, else density estimate |
+//! | caustics in mirrors and glass | `L S+ D S+ E` | caustics | [`caustic_photon_pass`]: light sheets; for the rest density estimate |
 //! | interreflection | `L .. D .. D S* E` | interreflection | [`global_photon_pass`], density estimate |
 //! | light in gloss | `L .. D S* G S* E` | as without the lobe | [`camera_pass`], and photons with the MIS weights of [`GlossyMis`] |
 //!
@@ -23,6 +23,7 @@
 //! | `points/` | scattering at a point of a surface |
 //! | `lights/` | emission and sampling of lights |
 //! | `photons/` | photons and their maps |
+//! | `light_sheets/` | sheets of light: caustics without photons |
 //! | `density/` | density estimation, and the measurements that improve it |
 //! | `plan/` | which work a scene needs, and how it is rendered |
 //! | `passes/` | the passes of an iteration |
@@ -30,6 +31,7 @@
 mod counters;
 mod density;
 mod energy;
+mod light_sheets;
 mod lights;
 mod pass;
 mod passes;
@@ -42,12 +44,13 @@ mod testing;
 pub use counters::{Counted, Counters};
 pub use density::{Bandwidth, BandwidthDifference, FilmStatistics, PixelSamples};
 pub use energy::{Energy, PathEnergy, WorstBalance};
+pub use light_sheets::LightSheets;
 pub use lights::{LightSampler, PhotonEmission, ProjectionMap};
 pub use pass::{Cancel, Rows};
 pub use passes::{
-    Band, CameraBatch, Contribution, FirstHit, Gathered, GatheredBatch, Guides, LobeSample, PassInput, SeenSurface,
-    camera_pass, caustic_photon_pass, gather, global_photon_pass, lobe_samples,
+    Band, CameraBatch, CausticPhotons, Contribution, FirstHit, Gathered, GatheredBatch, Guides, LobeSample, PassInput,
+    SeenSurface, camera_pass, caustic_photon_pass, gather, global_photon_pass, lobe_samples,
 };
-pub use photons::{CausticPhotons, GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query, Splat};
+pub use photons::{GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query, Splat};
 pub use plan::{CausticPlan, Component, DraftSize, MeasuredPlan, Plan, PlanItem, PlanNote, Radii, UnseenLight};
 pub use points::{Clearance, Facet, Fresnel, GlossyMis, VisiblePoint, fresnel};

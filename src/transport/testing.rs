@@ -5,7 +5,7 @@ use super::points::{Clearance, Vertex, VisiblePoint};
 use crate::math::{Ray, Rgb};
 use crate::scene::{Location, SceneFile};
 use crate::world::{Lobe, Scattering, Surface, World, prepare};
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 use scene_text::HEAD;
 
 #[path = "../../tests/shared/scene_text.rs"]
@@ -32,6 +32,8 @@ pub(super) fn vertex(world: &World, ray: &Ray) -> Vertex {
 pub(super) fn visible_point() -> VisiblePoint {
     VisiblePoint {
         pixel: 0,
+        in_pixel: Vec2::splat(0.5),
+        way: Some(0),
         position: Vec3::ZERO,
         n_side: Vec3::Y,
         n_shade: Vec3::Y,

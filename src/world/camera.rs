@@ -91,6 +91,26 @@ impl Camera {
         })
     }
 
+    /// Where the pixel with this index lies on a plane, given by a point and a normal: its middle, and from there the middles of its right and
+    /// of its lower side. `None` where the pixel sees more of the plane than `limit` pixel footprints each way, or the plane's horizon.
+    pub fn pixel_on_plane(&self, pixel: u32, point: DVec3, normal: DVec3, limit: f64) -> Option<[DVec3; 3]> {
+        let middle = DVec2::new(f64::from(pixel % self.width) + 0.5, f64::from(pixel / self.width) + 0.5);
+        let height = (point - self.position).dot(normal);
+        let distance = |film: DVec2| {
+            let ray = self.ray(film);
+            (ray.direction, height / ray.direction.dot(normal))
+        };
+        let at = |film: DVec2| {
+            let (direction, t) = distance(film);
+            (t > 0.0).then_some(direction * t)
+        };
+        let [middle, right, below] = [at(middle)?, at(middle + 0.5 * DVec2::X)?, at(middle + 0.5 * DVec2::Y)?];
+        let most = 0.5 * limit * self.footprint(middle.length());
+        let sides = [right - middle, below - middle];
+        let fits = sides.iter().all(|side| side.length() <= most);
+        fits.then(|| [self.position + middle, sides[0], sides[1]])
+    }
+
     /// The side of a pixel's footprint across the ray, at this distance along the path, in scene units.
     pub fn footprint(&self, distance: f64) -> f64 {
         self.pixel_side * distance
@@ -110,6 +130,24 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_pixel_shows_the_piece_of_a_plane_between_its_sides() {
+        let scene = scene::Camera { position: DVec3::new(0.3, 2.0, 4.0), target: DVec3::ZERO, ..Default::default() };
+        let camera = Camera::new(&scene, 40, 30);
+        let (pixel, normal) = (17 * 40 + 25, DVec3::Y);
+        let [middle, right, below] =
+            camera.pixel_on_plane(pixel, DVec3::new(7.0, -0.5, 3.0), normal, 16.0).expect("seen");
+        for (film, point) in [((25.5, 17.5), middle), ((26.0, 17.5), middle + right), ((25.5, 18.0), middle + below)] {
+            assert!((point.y + 0.5).abs() < 1e-12);
+            let found = camera.film_position(point).expect("in front of the camera");
+            assert!(found.distance(film.into()) < 1e-9, "{found} {film:?}");
+        }
+        let along = camera.ray(DVec2::new(25.5, 17.5)).direction;
+        let grazing = along.any_orthonormal_vector();
+        assert!(camera.pixel_on_plane(pixel, camera.position, grazing, 16.0).is_none(), "through the camera");
+        assert!(camera.pixel_on_plane(pixel, DVec3::new(0.0, 5.0, 0.0), normal, 16.0).is_none(), "behind it");
+    }
 
     #[test]
     fn project_undoes_ray() {

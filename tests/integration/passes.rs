@@ -11,8 +11,10 @@ use patchlight::transport::{
 use patchlight::world::World;
 use std::sync::Arc;
 
+/// The caustic photons of some iterations in which no sheets of light take their place.
 fn caustic_photons(world: &World, iterations: u64) -> Vec<Photon> {
-    let plan = Plan::new(world);
+    let mut plan = Plan::new(world);
+    plan.caustics.iter_mut().for_each(|caustics| caustics.sheets.fill(false));
     let batch = |i| caustic_photon_pass(&PassInput::uncancelled(world, &plan, 1, i)).expect("never cancelled");
     (1..=iterations).flat_map(|i| batch(i).photons).collect()
 }
@@ -27,10 +29,20 @@ fn a_glass_ball_conserves_energy() {
         [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = [1, 2, 3]\n"
     );
     let iterations = 4;
-    let total: DVec3 = caustic_photons(&world(&text), iterations).iter().map(|p| p.flux.as_dvec3()).sum();
+    let world = world(&text);
+    let mut plan = Plan::new(&world);
+    plan.caustics.iter_mut().for_each(|caustics| caustics.sheets.fill(true));
+    let pass = |i| caustic_photon_pass(&PassInput::uncancelled(&world, &plan, 1, i)).expect("never cancelled");
+    let with_sheets = (1..=iterations).map(pass).flat_map(|pass| {
+        let of_sheets: Vec<Rgb> = pass.sheets.fluxes().map(|(_, flux)| flux).collect();
+        pass.photons.into_iter().map(|photon| photon.flux).chain(of_sheets)
+    });
+    let alone = caustic_photons(&world, iterations).into_iter().map(|photon| photon.flux);
+    let totals = [with_sheets.collect::<Vec<Rgb>>(), alone.collect()];
+    let totals = totals.map(|fluxes| fluxes.into_iter().map(|flux| flux.as_dvec3()).sum::<DVec3>());
     // The ball fills 2 pi (1 - sqrt(1 - 1/4)) steradians.
     let expected = std::f64::consts::TAU * (1.0 - 0.75f64.sqrt());
-    for (found, intensity) in total.to_array().into_iter().zip([1.0, 2.0, 3.0]) {
+    for (found, intensity) in totals.into_iter().flat_map(|total| total.to_array().into_iter().zip([1.0, 2.0, 3.0])) {
         let ratio = found / iterations as f64 / (expected * intensity);
         // Paths that were reflected 16 times inside are cut; Sobol points cover the rim of the ball to about 0.1 %.
         assert!((ratio - 1.0).abs() < 3e-3, "{ratio} of the light came out");

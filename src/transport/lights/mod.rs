@@ -7,6 +7,7 @@
 //! | `small_targets` | a quadtree over a chart for objects that appear small from a light |
 //! | `cone` | cones of places in a chart |
 //! | `chart` | how the unit square of a projection map covers the first rays of paths |
+//! | `pencil` | the rays of a light through one of its points |
 //! | `bundle` | the rays from a wide light to a small ball |
 //! | `rays_to_ball` | the first rays of paths that may meet a ball, in the chart or as a bundle |
 //! | `probe_rays` | probe rays into the cells of a chart, and to small objects |
@@ -21,6 +22,7 @@ mod cone;
 pub(in crate::transport) mod direct;
 pub(in crate::transport) mod emission;
 pub(in crate::transport) mod light_sampler;
+mod pencil;
 mod photon_emission;
 mod probe_rays;
 mod projection_map;
@@ -30,5 +32,7 @@ mod spherical_quad;
 
 pub(in crate::transport) use direct::{DirectLight, SeenBy};
 pub use light_sampler::LightSampler;
+pub(in crate::transport) use pencil::Pencil;
 pub use photon_emission::PhotonEmission;
+pub(in crate::transport) use probe_rays::SIDE as PROJECTION_SIDE;
 pub use projection_map::ProjectionMap;

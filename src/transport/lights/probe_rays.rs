@@ -11,7 +11,7 @@ use crate::world::{Light, World};
 use glam::{DVec2, DVec3};
 
 /// Cells along a side of the chart: of directions, a cell subtends about 3 degrees, narrower than most objects.
-pub(super) const SIDE: usize = 64;
+pub(in crate::transport) const SIDE: usize = 64;
 /// Probe rays along a side of a cell; one in scenes where points sample only some of many lights. Three would take 37 000 instead of 16 000
 /// rays for each light after an edit; with one, more mirrors are found by the defensive paths alone, which leaves their caustics noisy.
 pub(super) const PROBES_ALONG_SIDE: u64 = 2;

@@ -59,6 +59,8 @@ pub struct ProjectionMap {
     rows: Vec<f64>,
     /// Cumulative distribution of the cells of each row.
     cells: Vec<[f64; SIDE + 1]>,
+    /// Whether the light meets the surfaces in each cell.
+    is_marked: Vec<bool>,
     /// The cells that small objects refine, by their index.
     trees: BTreeMap<usize, CellTree>,
     /// Fraction of the chart in which the light meets the surfaces.
@@ -153,7 +155,7 @@ impl ProjectionMap {
         let of_views = areas.iter().zip(&fractions).skip(objects.len()).map(|(area, fraction)| area / fraction);
         let covered = of_views.reduce(f64::max).unwrap_or(marked_area + areas.iter().sum::<f64>());
         let chart_fraction = 1.0 - bundles.iter().map(|(_, fraction)| fraction).sum::<f64>();
-        Self { bundles, chart_fraction, chart, rows, cells, trees, covered }
+        Self { bundles, chart_fraction, chart, rows, cells, is_marked: is_marked.to_vec(), trees, covered }
     }
 
     /// Samples a point of the unit square; returns it with its density. Monotonic in both numbers, so that stratified numbers give
@@ -262,6 +264,19 @@ impl ProjectionMap {
     /// Fraction of the chart that the aimed paths cover: all of it, if the light meets none of the surfaces.
     pub(in crate::transport) fn aimed_fraction(&self) -> f64 {
         if self.covered > 0.0 { self.covered } else { 1.0 }
+    }
+
+    /// Whether cells alone tell where the paths go: no small object needs more of them.
+    pub(in crate::transport) fn is_by_cells(&self) -> bool {
+        self.trees.is_empty() && self.bundles.is_empty()
+    }
+
+    /// Whether the light may meet the surfaces in the rectangle of the unit square between two corners.
+    pub(in crate::transport) fn aims_between(&self, min: DVec2, max: DVec2) -> bool {
+        let cell = |at: DVec2| (at * SIDE as f64).floor().clamp(DVec2::ZERO, DVec2::splat((SIDE - 1) as f64));
+        let (first, last) = (cell(min), cell(max));
+        let mut rows = first.y as usize..=last.y as usize;
+        rows.any(|row| (first.x as usize..=last.x as usize).any(|column| self.is_marked[row * SIDE + column]))
     }
 
     /// Fraction of the chart in which the light meets the surfaces, 0 to 1.

@@ -1,24 +1,51 @@
 //! The caustic photon pass: photons that only mirrors and glass have touched, from the light to the first surface that scatters them.
 //!
+//! Light sheets bring the light of point lamps and parallel rays where it is smooth; photons bring the rest.
+//!
 //! Where the camera sees that surface directly and the caustic is sharp, the photon is splatted to the film (light tracing). Density
 //! estimates serve caustics that are smooth, or seen in mirrors and through glass.
 
 use super::input::PassInput;
+use super::light_sheets::light_sheet_pass;
 use crate::math::{Ray, Rgb, Sampler, Stream};
-use crate::transport::energy::{self, power};
-use crate::transport::lights::emission::{self, Emission};
+use crate::transport::counters::{Counted, Counters};
+use crate::transport::energy::{self, PathEnergy, power};
+use crate::transport::light_sheets::{LightSheets, SheetsOfLight};
+use crate::transport::lights::emission::Emission;
 use crate::transport::photons::path_blocks::{concat, path_blocks};
-use crate::transport::photons::{CausticPhotons, Photon, Splat};
+use crate::transport::photons::{CausticBranch, Photon, Signature, Splat};
 use crate::transport::plan::CausticPlan;
 use crate::transport::points::bsdf::MAX_SHADING_FACTOR;
-use crate::transport::points::{SpecularEvent, Vertex, bsdf, roulette};
-use crate::world::{Lobe, Media, Scattering, Surface, World};
+use crate::transport::points::{Vertex, bsdf, roulette};
+use crate::world::{Lobe, Scattering, Surface, World};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Fraction of the emitted flux below which a branch ends at random: weak photons cost as much as strong ones. Just below the 4 % that
 /// glass reflects at normal incidence.
 const WEAK_BRANCH: f32 = 0.03;
+
+/// The photons, splats and light sheets of a caustic photon pass.
+#[derive(Clone, Debug, Default)]
+pub struct CausticPhotons {
+    /// Photons for the map; empty where no density estimate needs them.
+    pub photons: Vec<Photon>,
+    /// Light for the film. Pixels that gather directly seen caustics get none.
+    pub splats: Vec<Splat>,
+    /// The caustics that no photons bring.
+    pub sheets: LightSheets,
+    /// Work done.
+    pub counters: Counters,
+    /// What became of the flux of the paths.
+    pub energy: PathEnergy,
+}
+
+impl Counted for CausticPhotons {
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
 
 /// The caustic photons of an iteration, in the order of their paths; `None` when cancelled. Empty for a plan without
 /// caustics.
@@ -27,12 +54,13 @@ pub fn caustic_photon_pass(input: &PassInput) -> Option<CausticPhotons> {
     let Some(caustics) = &plan.caustics else { return Some(CausticPhotons::default()) };
     let paths = |&count: &u64| plan.paths(count, iteration);
     let to_map = plan.needs_caustic_map(iteration);
-    let blocks: Vec<CausticPhotons> = path_blocks(caustics.paths.iter().map(paths))
+    let sheets = light_sheet_pass(input, caustics)?;
+    let left: Vec<Range<u64>> = caustics.paths.iter().map(paths).zip(&sheets.of_lights).map(left_to_photons).collect();
+    let blocks: Vec<CausticPhotons> = path_blocks(left.iter().cloned())
         .into_par_iter()
         .map(|block| {
-            let mut tracer = CausticTracer::new(input, caustics, to_map);
-            let paths = paths(&caustics.paths[block.light]);
-            let count = paths.end - paths.start;
+            let mut tracer = CausticTracer::new(input, caustics, &sheets.of_lights, to_map);
+            let count = left[block.light].end - left[block.light].start;
             // One sequence over all iterations: its points keep filling each other's gaps.
             for index in block.paths.clone() {
                 tracer.trace(block.light, count, input.sampler(Stream::CausticPhoton, block.light as u64, index));
@@ -43,9 +71,17 @@ pub fn caustic_photon_pass(input: &PassInput) -> Option<CausticPhotons> {
     Some(CausticPhotons {
         photons: concat(&blocks, |block| &block.photons),
         splats: concat(&blocks, |block| &block.splats),
-        counters: blocks.iter().map(|block| block.counters).sum(),
+        counters: blocks.iter().map(|block| block.counters).chain([sheets.counters]).sum(),
         energy: blocks.iter().map(|block| block.energy).sum(),
+        sheets: sheets.all,
     })
+}
+
+/// The paths of a light on which photons bring what its sheets, if any, leave to them.
+fn left_to_photons((paths, sheets): (Range<u64>, &Option<SheetsOfLight>)) -> Range<u64> {
+    let fraction = sheets.as_ref().map_or(1.0, |sheets| sheets.regions.photon_fraction());
+    let count = ((paths.end - paths.start) as f64 * fraction).ceil() as u64;
+    paths.start..paths.start + count
 }
 
 /// Traces caustic photon paths, which branch at glass.
@@ -53,44 +89,53 @@ struct CausticTracer<'a> {
     input: &'a PassInput<'a>,
     world: &'a World,
     caustics: &'a CausticPlan,
+    sheets: &'a [Option<SheetsOfLight>],
     to_map: bool,
     found: CausticPhotons,
     /// Branches of the present path still to follow.
-    branches: Vec<Branch>,
-}
-
-/// One branch of a path.
-struct Branch {
-    ray: Ray,
-    flux: Rgb,
-    media: Media,
-    /// Mirrors and interfaces so far.
-    bounces: u32,
+    branches: Vec<CausticBranch>,
+    /// The ways on which sheets bring the light of the present path.
+    claims: &'a [Signature],
 }
 
 impl<'a> CausticTracer<'a> {
-    fn new(input: &'a PassInput<'a>, caustics: &'a CausticPlan, to_map: bool) -> Self {
-        Self { input, world: input.world, caustics, to_map, found: CausticPhotons::default(), branches: Vec::new() }
+    fn new(
+        input: &'a PassInput<'a>,
+        caustics: &'a CausticPlan,
+        sheets: &'a [Option<SheetsOfLight>],
+        to_map: bool,
+    ) -> Self {
+        let found = CausticPhotons::default();
+        Self { input, world: input.world, caustics, sheets, to_map, found, branches: Vec::new(), claims: &[] }
     }
 
     /// Traces one of `path_count` paths of a light.
     fn trace(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
         self.found.counters.caustic_paths += 1;
-        let emitted = self.caustics.projection_maps[light].emit(&self.world.lights[light], &mut sampler);
-        let Some(Emission { origin, direction, flux }) = emitted else { return };
-        let flux = flux / path_count as f32;
+        let Some(emission) = self.emit(light, &mut sampler) else { return };
+        let flux = emission.flux / path_count as f32;
         self.found.energy.emitted += power(flux);
         let weak = WEAK_BRANCH * flux.max_element();
-        let ray = emission::ray_from_light(self.world, light, origin, direction);
-        let media = self.world.media_at_light(light, ray.at(ray.t_min));
-        self.branches.push(Branch { ray, flux, media, bounces: 0 });
+        self.branches.push(CausticBranch::from_light(self.world, light, Emission { flux, ..emission }));
         while let Some(branch) = self.branches.pop() {
             self.follow(branch, weak, &mut sampler);
         }
     }
 
+    /// The first ray of a path, towards mirrors and glass; where the light has sheets, towards what they leave to photons.
+    fn emit(&mut self, light: usize, sampler: &mut Sampler) -> Option<Emission> {
+        self.claims = &[];
+        let Some(SheetsOfLight { pencil, regions }) = &self.sheets[light] else {
+            return self.caustics.projection_maps[light].emit(&self.world.lights[light], sampler);
+        };
+        let (square, density, claims) = regions.sample(sampler.next_2d());
+        self.claims = claims;
+        let emission = pencil.ray(square)?;
+        Some(Emission { flux: emission.flux / density as f32, ..emission })
+    }
+
     /// Follows a branch to the next surface: leaves a photon where the surface scatters, branches off where it mirrors or refracts.
-    fn follow(&mut self, mut branch: Branch, weak: f32, sampler: &mut Sampler) {
+    fn follow(&mut self, mut branch: CausticBranch, weak: f32, sampler: &mut Sampler) {
         self.found.counters.rays += 1;
         let energy = &mut self.found.energy;
         let Some(hit) = self.world.closest_hit(&branch.ray) else {
@@ -120,7 +165,7 @@ impl<'a> CausticTracer<'a> {
     }
 
     /// Divides the flux that arrives at a vertex into absorbed, scattered and specular flux; only the specular flux may go on.
-    fn divide_energy(&mut self, branch: &Branch, vertex: &Vertex, goes_on: bool) {
+    fn divide_energy(&mut self, branch: &CausticBranch, vertex: &Vertex, goes_on: bool) {
         let (energy, Scattering { albedo, lobe }) = (&mut self.found.energy, vertex.scattering);
         if goes_on && matches!(lobe, Lobe::Glass { .. }) {
             return;
@@ -140,27 +185,25 @@ impl<'a> CausticTracer<'a> {
     }
 
     /// Goes on along the mirrored and the refracted ray, both; weak branches end at random.
-    fn branch_off(&mut self, branch: &Branch, vertex: &Vertex, weak: f32, sampler: &mut Sampler) {
-        let Some(event) = SpecularEvent::at(self.world, vertex, &branch.media) else { return };
-        for next in [Some(event.reflected), event.refracted].into_iter().flatten() {
-            let flux = branch.flux * next.tint * next.fraction as f32;
+    fn branch_off(&mut self, branch: &CausticBranch, vertex: &Vertex, weak: f32, sampler: &mut Sampler) {
+        for way in branch.ways_on(self.world, vertex) {
+            let flux = branch.flux * way.0.tint * way.0.fraction as f32;
             let survival = roulette(flux.max_element(), weak, sampler);
-            self.found.energy.branch(branch.flux, &next, &vertex.scattering.lobe, survival);
+            self.found.energy.branch(branch.flux, &way.0, &vertex.scattering.lobe, survival);
             if let Some(survival) = survival {
-                self.branches.push(Branch {
-                    ray: vertex.ray(self.world, next.direction),
-                    flux: flux / survival,
-                    bounces: next.bounces_after(branch.bounces),
-                    media: next.media,
-                });
+                self.branches.push(branch.along(self.world, vertex, way, flux / survival));
             }
         }
     }
 
-    /// Leaves a photon in the map, on the film, or both.
-    fn leave_photon(&mut self, branch: &Branch, vertex: &Vertex) {
+    /// Leaves a photon in the map, on the film, or both; neither where a sheet brings the light.
+    fn leave_photon(&mut self, branch: &CausticBranch, vertex: &Vertex) {
         if !branch.flux.is_finite() {
             self.found.counters.dropped_samples += 1;
+            return;
+        }
+        if self.claims.contains(&branch.signature.arrived(vertex.side)) {
+            self.found.energy.stored += power(branch.flux);
             return;
         }
         if self.to_map {
@@ -173,7 +216,7 @@ impl<'a> CausticTracer<'a> {
 
     /// Adds a photon to the pixel that sees it: the flux `phi` adds `phi f |cos| / (d^2 solid angle of the pixel)` to the pixel's mean
     /// radiance. Adds nothing where the pixel gathers directly seen caustics.
-    fn splat(&mut self, branch: &Branch, vertex: &Vertex) {
+    fn splat(&mut self, branch: &CausticBranch, vertex: &Vertex) {
         let Vertex { point, scattering, n_side, n_shade, wo: wi, .. } = vertex;
         let PassInput { plan, iteration, .. } = *self.input;
         let Some(seen) = plan.camera.project(point.position) else { return };
@@ -213,11 +256,11 @@ impl<'a> CausticTracer<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transport::counters::Counters;
     use crate::transport::pass::Cancel;
     use crate::transport::plan::Plan;
-    use crate::transport::testing::{self, lamp, quad};
+    use crate::transport::testing::{self, lamp, quad, sphere};
     use glam::DVec2;
+    use std::collections::BTreeMap;
     use std::f64::consts::PI;
 
     /// Distance from the lamp to the square mirror, and half a side of the mirror.
@@ -232,9 +275,17 @@ mod tests {
         testing::world(&[&quad("mirror", mirror, "mirror"), screen, &lamp([0.0, 0.0, 4.5]), &rest].concat())
     }
 
+    /// What photons alone bring.
     fn found(world: &World, iterations: u64) -> Vec<CausticPhotons> {
-        let plan = Plan::new(world);
-        let pass = |k| caustic_photon_pass(&PassInput::uncancelled(world, &plan, 1, 4 + k)).expect("never cancelled");
+        let mut plan = Plan::new(world);
+        if let Some(caustics) = &mut plan.caustics {
+            caustics.sheets = vec![false; world.lights.len()];
+        }
+        passes(world, &plan, iterations)
+    }
+
+    fn passes(world: &World, plan: &Plan, iterations: u64) -> Vec<CausticPhotons> {
+        let pass = |k| caustic_photon_pass(&PassInput::uncancelled(world, plan, 1, 4 + k)).expect("never cancelled");
         (0..iterations).map(pass).collect()
     }
 
@@ -273,6 +324,62 @@ mod tests {
         // Some 5,000 and 15,000 photons: independent ones would leave errors of 1.4 and 0.8 %.
         assert!((over_expected(&inner) - 1.0).abs() < 0.03, "{} in the middle", over_expected(&inner));
         assert!((over_expected(&outer) - 1.0).abs() < 0.02, "{} around it", over_expected(&outer));
+    }
+
+    /// The flux that a map of photons and the sheets of an iteration bring to each side of a surface, after each number of events.
+    fn flux_by_tag(pass: &CausticPhotons) -> BTreeMap<u32, f64> {
+        let mut by_tag = BTreeMap::new();
+        let of_photons = pass.photons.iter().map(|photon| (photon.tag, photon.flux));
+        for (tag, flux) in of_photons.chain(pass.sheets.fluxes()) {
+            *by_tag.entry(tag).or_insert(0.0) += power(flux);
+        }
+        by_tag
+    }
+
+    /// By [`photons_carry_the_light_that_meets_the_mirror`].
+    #[test]
+    fn sheets_and_photons_share_the_light_of_a_mirror() {
+        let world = lit_by_a_mirror(16);
+        let pass = &passes(&world, &Plan::new(&world), 1)[0];
+        let of_photons: f64 = pass.photons.iter().map(|photon| power(photon.flux)).sum();
+        let all: f64 = flux_by_tag(pass).values().sum();
+        let a2 = HALF * HALF;
+        let expected = 3.0 * 0.8 * 4.0 * (a2 / (a2 + TO_MIRROR * TO_MIRROR)).asin();
+        assert!((all / expected - 1.0).abs() < 0.003, "{all} instead of {expected}");
+        assert!(of_photons < 0.05 * all, "photons bring the rim of the mirror: {of_photons} of {all}");
+        let left = &pass.counters.caustic_paths;
+        assert!(*left < 16_384 / 3, "{left} paths");
+    }
+
+    /// Light that glass divides in the glass, with a mirror and a tinted pane behind it: every sheet of it holds the flux of its photons.
+    #[test]
+    fn sheets_and_photons_share_the_light_of_glass() {
+        let glass = "[[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5\ntint = [0.9, 0.8, 0.7]\nabsorption = [0.5, 0.2, 0.1]\n";
+        let objects = [
+            quad("floor", [[-3.0, -1.0, 3.0], [6.0, 0.0, 0.0], [0.0, 0.0, -6.0]], "grey"),
+            quad("mirror", [[-2.0, -1.0, -1.5], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], "mirror"),
+            sphere("ball", [0.0, -0.3, 0.0], 0.6, "glass"),
+            lamp([0.5, 2.5, 0.8]),
+        ];
+        let world = testing::world(&[glass, &objects.concat()].concat());
+        let mut plan = Plan::new(&world);
+        // Not chosen by the plan, because it takes long; right nevertheless.
+        plan.caustics.iter_mut().for_each(|caustics| caustics.sheets.fill(true));
+        let [sheets, photons] = [passes(&world, &plan, 4), found(&world, 4)].map(|passes| {
+            let mut sum = BTreeMap::new();
+            for (tag, flux) in passes.iter().flat_map(flux_by_tag) {
+                *sum.entry(tag).or_insert(0.0) += flux / 4.0;
+            }
+            sum
+        });
+        let all: f64 = photons.values().sum();
+        assert!(photons.len() > 4, "several ways: {photons:?}");
+        let by_sheets = passes(&world, &plan, 1)[0].sheets.fluxes().map(|(_, flux)| power(flux)).sum::<f64>();
+        assert!(by_sheets > 0.7 * all, "{by_sheets} of {all}");
+        for (tag, expected) in photons {
+            let found = sheets.get(&tag).copied().unwrap_or(0.0);
+            assert!((found - expected).abs() < 0.004 * all + 0.02 * expected, "{found} instead of {expected} of {all}");
+        }
     }
 
     #[test]

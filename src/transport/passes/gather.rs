@@ -4,6 +4,7 @@ use super::camera::CameraBatch;
 use super::gathered::{Gathered, GatheredBatch};
 use super::input::PassInput;
 use super::interleaving::Interleaving;
+use super::pixel_footprint::{PixelFootprint, PointsByPixel};
 use crate::math::lanes::simd_dispatch;
 use crate::math::{Lanes, Rgb, Stream};
 use crate::transport::counters::Counters;
@@ -11,21 +12,26 @@ use crate::transport::density::bandwidth::WIDER;
 use crate::transport::density::disc::Disc;
 use crate::transport::density::estimate::{self, is_diffuse, is_glossy};
 use crate::transport::density::visibility_polygon::{VisibilityPolygon, VisibilityQuery};
+use crate::transport::light_sheets::{LightSheets, SheetQuery};
 use crate::transport::photons::photon_map::Stack;
 use crate::transport::photons::{MapKind, Maps};
 use crate::transport::plan::IterationRadii;
 use crate::transport::points::{Facet, VisiblePoint, bsdf};
+use crate::world::Scattering;
 use arrayvec::ArrayVec;
+use glam::DVec3;
+use std::f32::consts::FRAC_1_PI;
 
 /// Visible points between two checks whether the pass was cancelled, about a millisecond of work. Larger blocks react later to an edit and
 /// take more of the stack; smaller ones enter vector code more often.
 const POINTS_PER_BLOCK: usize = 1024;
 
 /// The light that the photons of these maps bring to the visible points of a batch; `None` when cancelled.
-pub fn gather(input: &PassInput, maps: &Maps, seen: &CameraBatch) -> Option<GatheredBatch> {
+pub fn gather(input: &PassInput, maps: &Maps, sheets: &LightSheets, seen: &CameraBatch) -> Option<GatheredBatch> {
     let points = seen.visible_points.as_slice();
     let radii = input.plan.radii_of(input.world, input.iteration);
-    let gatherer = Gatherer { input: *input, maps, facets: &seen.facets, radii };
+    let by_pixel = PointsByPixel::new(if sheets.is_empty() { &[] } else { points }, &input.plan.camera);
+    let gatherer = Gatherer { input: *input, maps, sheets, by_pixel, facets: &seen.facets, radii };
     let mut stack = Stack::new();
     let interleaving = gatherer.interleaving(points);
     let mut counters = Counters { global_gathers: interleaving.gathering.len() as u64, ..Counters::default() };
@@ -85,6 +91,8 @@ simd_dispatch! {
 struct Gatherer<'a> {
     input: PassInput<'a>,
     maps: &'a Maps,
+    sheets: &'a LightSheets,
+    by_pixel: PointsByPixel<'a>,
     facets: &'a [Facet],
     radii: IterationRadii<'a>,
 }
@@ -168,6 +176,9 @@ impl Gatherer<'_> {
                 }
             }
         }
+        if !self.sheets.is_empty() {
+            found.radiance += self.light_of_sheets(l, point);
+        }
         if found.radiance.is_finite() && found.difference.is_finite() {
             found
         } else {
@@ -233,6 +244,55 @@ impl Gatherer<'_> {
         .polygon();
         counters.rays += rays;
         polygon
+    }
+
+    /// Where a point asks for the light of sheets: over the pixel if that shows one piece of a surface, otherwise close around the point.
+    #[inline]
+    fn sheet_query(&self, point: &VisiblePoint, parts_of_pixel: u32) -> SheetQuery {
+        let PassInput { world, plan, iteration, .. } = self.input;
+        let tags = [point.tag, point.photon_bounces + 1];
+        match self.by_pixel.footprint(world, point) {
+            Some(whole) => {
+                let PixelFootprint { middle, sides } = whole.part(parts_of_pixel, point.in_pixel);
+                SheetQuery::parallelogram(middle, point.n_side, sides, tags)
+            }
+            None => {
+                let side = point.footprint * plan.sheet_filter(point.seen_directly, iteration) as f32;
+                SheetQuery::square(point.position, point.n_side, side, tags)
+            }
+        }
+    }
+
+    /// The radiance that a point adds to its pixel with the light of sheets. Where light is averaged over the pixel, so is what a texture and
+    /// relief tell of the surface.
+    #[inline(always)]
+    fn light_of_sheets<L: Lanes>(&self, l: L, point: &VisiblePoint) -> Rgb {
+        let facets = &self.facets[point.first_facet as usize..][..point.facets as usize];
+        let is_even = point.seen_directly && facets.is_empty() && point.mean_albedo == point.scattering.albedo;
+        let parts = if is_even { 1 } else { self.input.plan.parts_of_pixel(self.input.iteration) };
+        let query = self.sheet_query(point, parts);
+        let part = 1.0 / parts as f32;
+        let albedo = point.scattering.albedo.lerp(point.mean_albedo, part);
+        let scattering = Scattering { albedo, ..point.scattering };
+        let mut reflected = Rgb::ZERO;
+        if facets.is_empty() && point.n_shade == point.n_side && !is_glossy(point) {
+            self.sheets.for_each(l, &query, |irradiance, _| reflected += irradiance);
+            return point.throughput * reflected * bsdf::eval_diffuse(&scattering);
+        }
+        let (wo, n_side, n_shade) = (point.wo.as_dvec3(), point.n_side.as_dvec3(), point.n_shade.as_dvec3());
+        let factor = |wi: DVec3, n_shade: DVec3| bsdf::diffuse_shading_factor(wi, n_side, n_shade) as f32;
+        let at_point = |wi: DVec3| bsdf::eval(&scattering, n_shade, wo, wi) * factor(wi, n_shade);
+        let over_pixel = |wi: DVec3| {
+            let of_facet = |facet: &Facet| facet.albedo * factor(wi, facet.normal.as_dvec3());
+            facets.iter().map(of_facet).sum::<Rgb>() * FRAC_1_PI / facets.len() as f32
+        };
+        self.sheets.for_each(l, &query, |irradiance, wi| {
+            let wi = wi().as_dvec3();
+            let at_point = at_point(wi);
+            let scattered = if facets.is_empty() { at_point } else { at_point.lerp(over_pixel(wi), part) };
+            reflected += irradiance * scattered;
+        });
+        point.throughput * reflected
     }
 
     #[inline(always)]
@@ -323,7 +383,8 @@ mod tests {
     fn gathered_in(iteration: u64, world: &World, maps: &Maps, point: VisiblePoint) -> Rgb {
         let seen = CameraBatch { visible_points: vec![point], ..CameraBatch::default() };
         let plan = Plan::new(world);
-        let found = gather(&PassInput::uncancelled(world, &plan, 1, iteration), maps, &seen);
+        let input = PassInput::uncancelled(world, &plan, 1, iteration);
+        let found = gather(&input, maps, &LightSheets::default(), &seen);
         found.expect("never cancelled").points[0].radiance
     }
 

@@ -3,10 +3,12 @@
 //! | file | holds |
 //! |---|---|
 //! | `input` | the input that all passes have in common |
+//! | `light_sheets` | the pass that traces light sheets |
 //! | `caustic_photons` | the caustic photon pass: light to mirrors and glass, to the film or the caustic map |
 //! | `global_photons` | the photon pass of interreflection |
 //! | `camera/` | the camera pass: direct light and visible points |
 //! | `interleaving` | points that gather irradiance for their neighbours |
+//! | `pixel_footprint` | what part of a surface a pixel shows |
 //! | `gathered` | the result of the gather pass |
 //! | `gather` | the gather pass: density estimates at visible points |
 //! | `lobe_sample` | the light that a pixel sees in its Phong lobe |
@@ -23,12 +25,14 @@ mod global_photons;
 mod guides;
 mod input;
 mod interleaving;
+mod light_sheets;
 mod lobe_reuse;
 mod lobe_sample;
+mod pixel_footprint;
 
 pub use band::{Band, Contribution};
 pub use camera::{CameraBatch, FirstHit, camera_pass};
-pub use caustic_photons::caustic_photon_pass;
+pub use caustic_photons::{CausticPhotons, caustic_photon_pass};
 pub use gather::gather;
 pub use gathered::{Gathered, GatheredBatch};
 pub use global_photons::global_photon_pass;

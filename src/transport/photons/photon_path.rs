@@ -125,7 +125,7 @@ impl PhotonPath {
         choice: &Choice,
         energy: &mut PathEnergy,
     ) -> Option<DVec3> {
-        let next = SpecularEvent::at(world, vertex, &self.media)?.choose(choice.number);
+        let (_, next) = SpecularEvent::at(world, vertex, &self.media)?.choose(choice.number);
         if matches!(vertex.scattering.lobe, Lobe::Glass { .. }) {
             energy.absorbed += choice.power - power(self.flux * next.material_tint(&vertex.scattering.lobe));
         }

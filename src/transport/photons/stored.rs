@@ -14,25 +14,6 @@ pub struct Splat {
     pub radiance: Rgb,
 }
 
-/// The photons and splats of a caustic photon pass.
-#[derive(Clone, Debug, Default)]
-pub struct CausticPhotons {
-    /// Photons for the map; empty where no density estimate needs them.
-    pub photons: Vec<Photon>,
-    /// Light for the film. Pixels that gather directly seen caustics get none.
-    pub splats: Vec<Splat>,
-    /// Work done.
-    pub counters: Counters,
-    /// What became of the flux of the paths.
-    pub energy: PathEnergy,
-}
-
-impl Counted for CausticPhotons {
-    fn counters(&self) -> Counters {
-        self.counters
-    }
-}
-
 /// Photons of interreflection.
 #[derive(Clone, Debug, Default)]
 pub struct GlobalPhotons {

@@ -62,6 +62,8 @@ pub struct CausticPlan {
     pub paths: Vec<u64>,
     /// Directions in which each light meets mirrors or glass.
     pub projection_maps: Arc<Vec<ProjectionMap>>,
+    /// For each light, whether sheets of light bring its caustics, as far as they are smooth.
+    pub sheets: Vec<bool>,
     /// Whether the camera may see caustics in mirrors, through glass or in Phong lobes.
     pub seen_indirectly: bool,
     /// Until radii are measured, directly seen caustics of this many full iterations are gathered from the map, which is smoother than

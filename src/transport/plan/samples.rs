@@ -12,6 +12,15 @@ use std::ops::Range;
 /// gathers photons, which is most of the work.
 const CAMERA_SAMPLES: f64 = 4.0;
 
+/// Side of the square over which sheets of light are averaged after one full iteration, pixels, at the edge of a surface: a larger one would
+/// lie on other surfaces, too.
+const EDGE_FILTER: f64 = 0.5;
+/// The same where mirrors or glass bend what a pixel shows: a smaller one would seldom meet the bright spots of a lens.
+const BENT_FILTER: f64 = 2.0;
+
+/// Iterations that average sheets of light over whole pixels: while noise is greater than the bias of that.
+const WHOLE_PIXEL_ITERATIONS: f64 = 8.0;
+
 impl Plan {
     /// The film in bands of rows that can be rendered independently.
     pub fn bands(&self, iteration: u64) -> Vec<Rows> {
@@ -61,6 +70,19 @@ impl Plan {
     #[inline]
     pub(in crate::transport) fn compares_bandwidths(&self, pixel: u32, iteration: u64) -> bool {
         !self.is_draft && BandwidthDifferences::includes([self.camera.width, self.camera.height], pixel, iteration)
+    }
+
+    /// Number of parts along a pixel's side over each of which sheets of light are averaged. Later iterations average over smaller parts: where
+    /// a texture changes together with the light, or mirrors and glass bend the view, the average over the whole pixel has a bias.
+    pub(in crate::transport) fn parts_of_pixel(&self, iteration: u64) -> u32 {
+        if self.is_draft { 1 } else { (iteration as f64 / WHOLE_PIXEL_ITERATIONS).cbrt().round().max(1.0) as u32 }
+    }
+
+    /// Side of the square over which sheets of light are averaged where a pixel shows no single piece of a surface, pixels. In a picture that
+    /// converges it shrinks, so that its blur goes.
+    pub(in crate::transport) fn sheet_filter(&self, seen_directly: bool, iteration: u64) -> f64 {
+        let side = if seen_directly { EDGE_FILTER } else { BENT_FILTER };
+        if self.is_draft { side.max(1.0) } else { side * schedule::shrink(iteration).min(1.0) }
     }
 
     /// The stream of random numbers of a pass; drafts draw from streams of their own.

@@ -84,12 +84,12 @@ impl SpecularEvent {
         self.refracted.is_some() && self.reflected.fraction > 0.0
     }
 
-    /// One of the directions, each with its fraction as probability, by a number in `[0, 1)`.
+    /// One of the directions, each with its fraction as probability, by a number in `[0, 1)`; first whether it is the reflected one.
     #[inline]
-    pub(in crate::transport) fn choose(self, u: f64) -> Continuation {
+    pub(in crate::transport) fn choose(self, u: f64) -> (bool, Continuation) {
         match self.refracted {
-            Some(refracted) if u >= self.reflected.fraction => refracted,
-            _ => self.reflected,
+            Some(refracted) if u >= self.reflected.fraction => (false, refracted),
+            _ => (true, self.reflected),
         }
     }
 }
@@ -199,7 +199,7 @@ mod tests {
         let in_glass = world.media_around(ray.origin);
         let event = SpecularEvent::at(&world, &testing::vertex(&world, &ray), &in_glass).expect("water");
         assert!(!event.is_divided());
-        let on = event.choose(0.0);
+        let (_, on) = event.choose(0.0);
         assert!(on.direction == ray.direction && on.radiance_weight() == Rgb::ONE && on.fraction == 1.0);
         assert_eq!((on.bounces_after(0), on.bounces_after(3)), (1, 3), "no scattering event, but not direct light");
         assert_eq!(on.media.body(), in_glass.body());
@@ -214,7 +214,7 @@ mod tests {
         let ray = Ray::new(DVec3::new(-0.3, 1.9, 0.0), DVec3::X);
         let event = SpecularEvent::at(&world, &testing::vertex(&world, &ray), &inside).expect("water");
         assert!(event.refracted.is_none() && event.reflected.fraction == 1.0);
-        let on = event.choose(0.999);
+        let (_, on) = event.choose(0.999);
         let outward = DVec3::new((4.0f64 - 1.9 * 1.9).sqrt(), 1.9, 0.0) / 2.0;
         assert!(on.direction.dot(outward) < 0.0);
         assert_eq!(on.media, inside, "the water is around the path still");
@@ -228,7 +228,7 @@ mod tests {
         let at = || SpecularEvent::at(&world, &vertex, &Media::default()).expect("water");
         let reflected = at().reflected;
         let n = 10_000;
-        let is_reflected = |k: i32| at().choose((f64::from(k) + 0.5) / f64::from(n)).direction == reflected.direction;
+        let is_reflected = |k: i32| at().choose((f64::from(k) + 0.5) / f64::from(n)).0;
         let found = (0..n).filter(|&k| is_reflected(k)).count() as f64 / f64::from(n);
         assert!(reflected.fraction > 0.04 && (found - reflected.fraction).abs() < 1e-4, "{found}");
     }

@@ -1,12 +1,16 @@
 use crate::math::Rgb;
 use crate::world::Scattering;
-use glam::{DVec2, Vec3};
+use glam::{DVec2, Vec2, Vec3};
 
 /// A point where photons are gathered, and which the camera sees directly, in mirrors, through glass or in Phong lobes.
 #[derive(Clone, Copy, Debug)]
 pub struct VisiblePoint {
     /// Index of the pixel, row by row from the top of the film.
     pub pixel: u32,
+    /// Where the camera path crosses the pixel, from 0 to 1 each way.
+    pub in_pixel: Vec2,
+    /// The surfaces on the way of the camera path, as a hash; `None` behind a Phong lobe.
+    pub way: Option<u32>,
     /// Position relative to [`View::origin`](crate::world::View::origin).
     pub position: Vec3,
     /// Geometric unit normal on the seen side.

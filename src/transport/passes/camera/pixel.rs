@@ -2,11 +2,14 @@ use crate::math::Rgb;
 use crate::transport::density::sample_allocation::MOST_SAMPLES;
 use crate::transport::points::{Facet, VisiblePoint, bsdf};
 use arrayvec::ArrayVec;
+use glam::Vec2;
 
 /// The first vertices of the paths of one pixel.
 pub(super) struct Pixel {
     /// Row by row from the top of the film.
     pub(super) index: u32,
+    /// Where the present path crosses the pixel, from 0 to 1 each way.
+    pub(super) position: Vec2,
     /// Whether any of the first vertices has a texture.
     pub(super) is_textured: bool,
     facets: ArrayVec<Facet, MOST_SAMPLES>,
@@ -16,7 +19,7 @@ pub(super) struct Pixel {
 impl Pixel {
     /// A pixel without paths.
     pub(super) fn new() -> Self {
-        Self { index: 0, is_textured: false, facets: ArrayVec::new(), has_relief: false }
+        Self { index: 0, position: Vec2::ZERO, is_textured: false, facets: ArrayVec::new(), has_relief: false }
     }
 
     /// Begins another pixel.

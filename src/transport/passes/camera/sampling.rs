@@ -8,7 +8,7 @@ use crate::math::{LANES, Ray, Sampler, Stream};
 use crate::transport::density::PixelSamples;
 use crate::transport::pass::Rows;
 use crate::transport::passes::input::PassInput;
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use std::ops::Range;
 
 /// Samples of a pixel that gather photons where the pixel shows different surfaces: one would leave jagged edges, and density
@@ -58,6 +58,8 @@ pub fn camera_pass(input: &PassInput, rows: &Rows) -> Option<CameraBatch> {
 /// The first ray of a camera path and its nearest hit.
 struct FirstRay {
     sampler: Sampler,
+    /// Where the ray crosses the pixel, from 0 to 1 each way.
+    within_pixel: Vec2,
     ray: Ray,
     hit: Option<Hit>,
 }
@@ -76,7 +78,7 @@ fn trace_first_rays(input: &PassInput, row: u32, columns: Range<u32>) -> Vec<Fir
             // The one sample of a draft stands for the whole pixel.
             let within_pixel = if plan.is_draft() { DVec2::splat(0.5) } else { within_pixel };
             let ray = camera.ray(DVec2::new(f64::from(column), f64::from(row)) + within_pixel);
-            FirstRay { hit: None, sampler, ray }
+            FirstRay { hit: None, sampler, ray, within_pixel: within_pixel.as_vec2() }
         })
         .collect();
     let mut packets = first_rays.chunks_exact_mut(LANES);
@@ -114,9 +116,10 @@ fn sample_pixel(
     let groups = count / gathering.max(1);
     let first = if gathering > 0 { gathering_group(input, pixel.index, groups) * gathering } else { 0 };
     let first_point = tracer.batch.visible_points.len();
-    for (index, FirstRay { sampler, ray, hit }) in first_rays.iter_mut().enumerate() {
+    for (index, FirstRay { sampler, within_pixel, ray, hit }) in first_rays.iter_mut().enumerate() {
         let gathers = (first..first + gathering).contains(&index);
         let gather_weight = if gathers { 1.0 / gathering as f32 } else { 0.0 };
+        pixel.position = *within_pixel;
         samples.include(tracer.trace(pixel, *ray, *hit, gather_weight, sampler));
     }
     samples.is_heterogeneous = on_an_edge || pixel.is_textured;

@@ -6,7 +6,7 @@ use super::pixel::Pixel;
 use crate::geometry::Hit;
 use crate::math::{Ray, Rgb, Sampler};
 use crate::transport::lights::{DirectLight, SeenBy, direct};
-use crate::transport::photons::photon;
+use crate::transport::photons::{Signature, photon};
 use crate::transport::plan::Plan;
 use crate::transport::points::{
     Clearance, Facet, MisVertex, SpecularEvent, Vertex, ViewingLobe, VisiblePoint, bsdf, roulette,
@@ -51,6 +51,8 @@ struct Branch {
     gather_weight: f32,
     /// The last Phong lobe of the path.
     viewing_lobe: Option<ViewingLobe>,
+    /// The mirrors and glass so far.
+    signature: Signature,
 }
 
 /// The last event of a branch.
@@ -95,6 +97,7 @@ impl<'a> CameraTracer<'a> {
             last: LastEvent::Specular,
             gather_weight,
             viewing_lobe: None,
+            signature: Signature::default(),
         };
         let mut radiance = self.follow(first, hit, pixel, sampler);
         while let Some(branch) = self.branches.pop() {
@@ -157,6 +160,8 @@ impl<'a> CameraTracer<'a> {
         let wanted = self.plan.wanted_clearance(footprint);
         VisiblePoint {
             pixel: pixel.index,
+            in_pixel: pixel.position,
+            way: branch.viewing_lobe.is_none().then(|| branch.signature.short()),
             clearance: wanted.map_or(Clearance::FREE, |limits| clearance(self.world, vertex, limits)),
             position: (vertex.point.position - self.world.view.origin).as_vec3(),
             n_side: vertex.n_side.as_vec3(),
@@ -203,12 +208,17 @@ impl<'a> CameraTracer<'a> {
             return self.branch_in_lobe(branch, vertex, sampler);
         }
         let Some(event) = SpecularEvent::at(self.world, vertex, &branch.media) else { return };
+        let object = self.world.object_of(vertex.point.hit.primitive).unwrap_or(u32::MAX);
         if event.is_divided() && branch.splits < FOLLOWED_SPLITS {
-            for next in [Some(event.reflected), event.refracted].into_iter().flatten() {
+            let refracted = event.refracted.map(|next| (next, branch.signature.refracted(object)));
+            for (next, signature) in
+                [Some((event.reflected, branch.signature.reflected(object))), refracted].into_iter().flatten()
+            {
                 let fraction = next.fraction as f32;
                 let mut split = branch.after(self.world, vertex, next.direction, next.radiance_weight());
                 split.throughput *= fraction;
                 split.splits += 1;
+                split.signature = signature;
                 split.bounces = next.bounces_after(branch.bounces);
                 split.media = next.media;
                 self.push(split, sampler);
@@ -216,9 +226,11 @@ impl<'a> CameraTracer<'a> {
         } else {
             // A number is drawn only where there is a choice.
             let u = if event.is_divided() { sampler.next_1d() } else { 0.0 };
-            let next = event.choose(u);
+            let (is_reflected, next) = event.choose(u);
             let mut single = branch.after(self.world, vertex, next.direction, next.radiance_weight());
             single.bounces = next.bounces_after(branch.bounces);
+            single.signature =
+                if is_reflected { branch.signature.reflected(object) } else { branch.signature.refracted(object) };
             single.media = next.media;
             self.push(single, sampler);
         }
@@ -258,6 +270,7 @@ impl Branch {
             last: LastEvent::Specular,
             gather_weight: self.gather_weight,
             viewing_lobe: self.viewing_lobe,
+            signature: self.signature,
         }
     }
 }
