@@ -7,15 +7,15 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `query` | [`SheetQuery`]: a point that asks for the light of sheets |
+//! | `query` | `SheetQuery`: a point that asks for the light of sheets |
 //! | `coverage` | how much of a triangle lies in a square |
-//! | `landing` | [`Landing`]: where the light of one ray lands, along all branches |
-//! | `regions` | [`Regions`]: which sequences each part of the lattice claims, and where photons still have to go |
-//! | `tree` | [`BoxTree`]: the cells near a point |
-//! | `cell` | [`SheetCell`]: the light of one cell where it lands |
+//! | `landing` | `Landing`: where the light of one ray lands, along all branches |
+//! | `regions` | `Regions`: which sequences each part of the lattice claims, and where photons still have to go |
+//! | `tree` | `BoxTree`: the cells near a point |
+//! | `cell` | `SheetCell`: the light of one cell where it lands |
 //! | `smoothness` | how well quadrilaterals follow the map from direction to landing place |
 //! | `subdivision` | a quadtree of directions, divided until its cells are smooth |
-//! | `sheets` | [`LightSheets`]: all sheets of an iteration, and the light that they bring to a point |
+//! | `sheets` | `LightSheets`: all sheets of an iteration, and the light that they bring to a point |
 
 mod cell;
 mod coverage;
