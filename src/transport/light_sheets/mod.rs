@@ -1,5 +1,5 @@
-//! Sheets of light: the light of a point that goes by mirrors and glass alone is no random thing. The map from its direction to where it
-//! lands is smooth in pieces, one **sheet** for each sequence of surfaces. Traced on a lattice of directions, a cell of the lattice becomes
+//! Light sheets: where the light of a point lands after mirrors and glass alone is a function of its direction. That function is smooth in
+//! pieces, one **light sheet** for each sequence of surfaces. Traced on a lattice of directions, a cell of the lattice becomes
 //! a small quadrilateral on the receiver, which holds exactly the light of the cell \[Watt90\].
 //!
 //! Every path counts once: a cell claims a sequence of surfaces, and photons of the cell that took that sequence leave nothing. Where the
