@@ -116,6 +116,7 @@
 //! | `eta` | index of refraction behind an interface over the index in front of it |
 //! | specular, glossy | scattering into one direction by a mirror or glass; into a Phong lobe |
 //! | light sheet, signature | the light of a lamp that goes by one sequence of mirrors and glass, as cells on the surface where it lands; that sequence |
+//! | light path, landing place | the way of light from a lamp over mirrors and glass, as the window draws it; where it meets a surface that scatters it |
 //! | component | direct light (with emission), caustics or interreflection: every path of light belongs to one of them |
 //! | caustic | light that met only mirrors or glass between the light and the visible point |
 //! | indirect caustic | light that mirrors or glass send on after a diffuse or glossy surface scattered it |
@@ -198,6 +199,7 @@
 //! - \[Burley20\] B. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 //! - \[Clarberg08\] P. Clarberg, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, JGT 13(3), 2008.
 //! - \[Dammertz10\] H. Dammertz et al., Edge-Avoiding À-Trous Wavelet Transform for fast Global Illumination Filtering, HPG 2010.
+//! - \[DowellJarratt71\] M. Dowell, P. Jarratt, A Modified Regula Falsi Method for Computing the Root of an Equation, BIT 11, 1971.
 //! - \[Duff17\] T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
 //! - \[FanGijbels96\] J. Fan, I. Gijbels, Local Polynomial Modelling and Its Applications, 1996.
 //! - \[GKDS12\] I. Georgiev et al., Light Transport Simulation with Vertex Connection and Merging, ACM TOG 31(6), 2012.
@@ -218,6 +220,7 @@
 //! - \[LafortuneWillems94\] E. Lafortune, Y. Willems, Using the Modified Phong Reflectance Model for Physically Based
 //!   Rendering, KU Leuven CW 197, 1994.
 //! - \[LaineKarras11\] S. Laine, T. Karras, Stratified Sampling for Stochastic Transparency, EGSR 2011.
+//! - \[LorensenCline87\] W. E. Lorensen, H. E. Cline, Marching Cubes: A High Resolution 3D Surface Construction Algorithm, SIGGRAPH 1987.
 //! - \[Mitchell96\] D. P. Mitchell, Consequences of Stratified Sampling in Graphics, SIGGRAPH 1996.
 //! - \[Morton66\] G. M. Morton, A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing, IBM 1966.
 //! - \[Neyman34\] J. Neyman, On the Two Different Aspects of the Representative Method, J. Royal Statistical Society 97(4),

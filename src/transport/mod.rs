@@ -24,6 +24,7 @@
 //! | `lights/` | emission and sampling of lights |
 //! | `photons/` | photons and their maps |
 //! | `light_sheets/` | sheets of light: caustics without photons |
+//! | `light_paths/` | what a designer reads from a surface: images of its lines, edges of caustics |
 //! | `density/` | density estimation, and the measurements that improve it |
 //! | `plan/` | which work a scene needs, and how it is rendered |
 //! | `passes/` | the passes of an iteration |
@@ -31,6 +32,7 @@
 mod counters;
 mod density;
 mod energy;
+mod light_paths;
 mod light_sheets;
 mod lights;
 mod pass;
@@ -44,6 +46,7 @@ mod testing;
 pub use counters::{Counted, Counters};
 pub use density::{Bandwidth, BandwidthDifference, FilmStatistics, PixelSamples};
 pub use energy::{Energy, PathEnergy, WorstBalance};
+pub use light_paths::{LightPaths, Polyline, light_paths};
 pub use light_sheets::LightSheets;
 pub use lights::{LightSampler, PhotonEmission, ProjectionMap};
 pub use pass::{Cancel, Rows};
