@@ -77,6 +77,12 @@ pub(crate) mod overlay {
     pub(crate) const ZEBRA: [Color32; 2] = [Color32::from_rgb(14, 14, 18), Color32::from_rgb(246, 246, 246)];
     /// The opacity of curvature and reflection lines: some of the picture shows through.
     pub(crate) const ANALYSIS_OPACITY: f32 = 0.9;
+    /// The images of lines of equal u, and of lines of equal v.
+    pub(crate) const LIGHT_IMAGE: [Color32; 2] = [Color32::from_rgb(110, 215, 255), Color32::from_rgb(150, 236, 130)];
+    /// The edges of caustics.
+    pub(crate) const CAUSTIC_EDGE: Color32 = Color32::from_rgb(255, 80, 170);
+    /// The ways of light in the room.
+    pub(crate) const LIGHT_WAY: Color32 = Color32::from_rgba_premultiplied(36, 33, 14, 36);
     /// The background and the text of a legend over the picture.
     pub(crate) const LEGEND: Color32 = Color32::from_rgba_premultiplied(16, 17, 20, 225);
     pub(crate) const LEGEND_TEXT: Color32 = Color32::from_rgb(230, 232, 238);

@@ -26,6 +26,7 @@
 //! | `steering` | the keys that steer a drag, and where it ends |
 //! | `grasp` | [`Grasp`](grasp::Grasp): pointer and keys on handles and gizmo |
 //! | `analysis/` | isolines, curvature and reflection lines of the selected surface |
+//! | `light_paths/` | what light does at the selected surface of mirror or glass |
 //! | `widget` | [`Canvas`]: pointer and keyboard input on the picture |
 
 mod analysis;
@@ -35,6 +36,7 @@ mod free_space;
 mod gizmo;
 mod grasp;
 mod handle_widgets;
+mod light_paths;
 mod movement;
 mod navigation;
 mod normal;

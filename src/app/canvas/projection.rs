@@ -7,6 +7,9 @@ use glam::{DVec2, DVec3};
 /// The near plane as a fraction of the distance to the target: nearer points would project to huge coordinates.
 const NEAREST_DEPTH: f64 = 1e-6;
 
+/// The near plane of lines, as a fraction of the distance to the target.
+const NEAREST_OF_LINES: f64 = 1e-3;
+
 /// The map of a pinhole camera between world space and film space. Film coordinates are pixels: x to the right, y down,
 /// (0, 0) at the top-left corner of the top-left pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,6 +73,20 @@ impl Projection {
         let offset = world - self.position;
         let scale = self.pixels_per_unit(depth);
         Some(self.center + DVec2::new(offset.dot(self.right), -offset.dot(self.up)) * scale)
+    }
+
+    /// The part of a segment in front of a near plane before the camera; `None` for none. Its ends project to coordinates that the screen
+    /// can draw.
+    pub(crate) fn clipped(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+        let near = NEAREST_OF_LINES * self.near / NEAREST_DEPTH;
+        let depths = [from, to].map(|end| self.depth(end));
+        let on_plane = || from.lerp(to, (near - depths[0]) / (depths[1] - depths[0]));
+        match depths.map(|depth| depth > near) {
+            [true, true] => Some([from, to]),
+            [true, false] => Some([from, on_plane()]),
+            [false, true] => Some([on_plane(), to]),
+            [false, false] => None,
+        }
     }
 
     /// The world point at depth `depth` that projects to the film point `film`.
@@ -144,6 +161,21 @@ mod tests {
     #[test]
     fn a_point_behind_the_camera_has_no_projection() {
         assert_eq!(projection().project(DVec3::new(1.5, 4.0, 17.0)), None);
+    }
+
+    #[test]
+    fn segments_are_clipped_before_the_camera() {
+        let projection = projection();
+        let (before, behind) = (DVec3::new(0.5, 0.0, -1.0), DVec3::new(1.5, 4.0, 17.0));
+        assert_eq!(projection.clipped([before, 0.5 * before]), Some([before, 0.5 * before]));
+        assert_eq!(projection.clipped([behind, behind]), None);
+        let near = 1e-3 * projection.depth(before);
+        for ends in [[before, behind], [behind, before]] {
+            let clipped = projection.clipped(ends).unwrap();
+            let [a, b] = clipped.map(|end| projection.depth(end));
+            assert!((a.min(b) - near).abs() < TOLERANCE && clipped.contains(&before), "{clipped:?}");
+            assert!(clipped.iter().all(|end| projection.project(*end).is_some()));
+        }
     }
 
     #[test]

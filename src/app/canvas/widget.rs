@@ -2,6 +2,7 @@
 
 use super::analysis::AnalysisLayer;
 use super::grasp::Grasp;
+use super::light_paths::LightPathLayer;
 use super::navigation::Navigation;
 use super::pixels;
 use super::projection::Projection;
@@ -12,7 +13,7 @@ use crate::app::commands::AppCommand;
 use crate::app::document::Document;
 use crate::app::theme;
 use crate::film::LinearImage;
-use crate::scene::{Camera, Scene};
+use crate::scene::Scene;
 use egui::{Color32, CursorIcon, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo};
 
 /// Logarithm of the zoom factor per screen point of scrolling.
@@ -31,6 +32,7 @@ pub(crate) struct Canvas {
     pub(crate) matches_window: bool,
     pub(crate) navigation: Navigation,
     pub(crate) analysis: AnalysisLayer,
+    pub(crate) light_paths: LightPathLayer,
     /// What the camera sees of the handles.
     pub(crate) sight: Sight,
     /// Input on the handles.
@@ -47,6 +49,7 @@ impl Default for Canvas {
             matches_window: false,
             navigation: Navigation::default(),
             analysis: AnalysisLayer::default(),
+            light_paths: LightPathLayer::default(),
             sight: Sight::default(),
             grasp: Grasp::default(),
         }
@@ -94,7 +97,7 @@ impl Canvas {
         let pointer = response.contains_pointer().then(|| ui.input(|input| input.pointer.hover_pos())).flatten();
         self.pixel = pointer.and_then(|pointer| transform.pixel(pointer));
         if let Some(projection) = Projection::new(&seen.camera, &seen.film)
-            && self.handles_ui(ui, (document, &seen.camera), (transform, projection), &response, commands)
+            && self.handles_ui(ui, (document, seen), (transform, projection), &response, commands)
         {
             return;
         }
@@ -105,7 +108,7 @@ impl Canvas {
     fn handles_ui(
         &mut self,
         ui: &mut Ui,
-        (document, camera): (&Document, &Camera),
+        (document, seen): (&Document, &Scene),
         (transform, projection): (ScreenTransform, Projection),
         canvas: &Response,
         commands: &mut Vec<AppCommand>,
@@ -121,9 +124,10 @@ impl Canvas {
         let shows_handles = self.show_handles;
         let stage = Stage { document, transform, projection, sight: &self.sight, shows_handles };
         self.analysis.show(ui, &stage);
+        self.light_paths.show(ui, &stage, seen);
         let takes_pointer = !self.navigation.takes_pointer(ui);
         self.grasp.ui(ui, &stage, canvas, takes_pointer, commands);
-        !self.grasp.is_holding() && self.navigation.navigate(ui, &stage, camera, canvas, commands)
+        !self.grasp.is_holding() && self.navigation.navigate(ui, &stage, &seen.camera, canvas, commands)
     }
 
     /// Shows the whole picture.

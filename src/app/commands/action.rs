@@ -52,6 +52,7 @@ pub(crate) enum Action {
     ToggleMeanCurvature,
     ToggleGaussianCurvature,
     ToggleZebra,
+    ToggleLightPaths,
     TogglePanels,
     FullScreen,
     Palette,
@@ -132,6 +133,7 @@ const TABLE: &[Row] = &[
     (Action::ToggleZebra, "Show reflection lines (zebra)", &[(CTRL_SHIFT, Key::K)]),
     (Action::ToggleMeanCurvature, "Show mean curvature", &[(NONE, Key::K)]),
     (Action::ToggleGaussianCurvature, "Show Gaussian curvature", &[(Modifiers::SHIFT, Key::K)]),
+    (Action::ToggleLightPaths, "Show light paths", &[(Modifiers::ALT, Key::K)]),
     (Action::TogglePanels, "Show panels", &[(CTRL, Key::B)]),
     (Action::FullScreen, "Full screen", &[(NONE, Key::F11)]),
     (Action::Palette, "Find a command…", &[(CTRL, Key::P)]),
@@ -175,6 +177,10 @@ impl Action {
             Self::ToggleZebra => {
                 "Stripes that the selected surface reflects: a kink in a stripe is a crease, a corner a jump of curvature"
             }
+            Self::ToggleLightPaths => {
+                "Where the selected surface of mirror or glass sends light: images of its lines of equal u and v, the edges of the \
+                 caustic, and ways of light. Relief counts as flat."
+            }
             Self::ToggleSmoothing => {
                 "Takes noise out of the interreflection that the screen shows while the picture has few photons. The picture itself, \
                  exports and the error estimate stay as they are."
@@ -210,13 +216,13 @@ fn blocked_by(action: Action, modifiers: Modifiers, key: Key) -> BlockedBy {
     }
 }
 
-/// All shortcuts with their actions, those with Shift first: egui's `consume_shortcut` ignores Shift where a shortcut does
-/// not ask for it.
+/// All shortcuts with their actions, those with Shift or Alt first: egui's `consume_shortcut` ignores Shift and Alt where a
+/// shortcut does not ask for them.
 fn shortcuts() -> impl Iterator<Item = (Action, Modifiers, Key)> {
     let all =
         || TABLE.iter().flat_map(|(action, _, keys)| keys.iter().map(|(modifiers, key)| (*action, *modifiers, *key)));
-    let with_shift = |shift: bool| all().filter(move |(_, modifiers, _)| modifiers.shift == shift);
-    with_shift(true).chain(with_shift(false))
+    let with_more = |more: bool| all().filter(move |(_, modifiers, _)| (modifiers.shift || modifiers.alt) == more);
+    with_more(true).chain(with_more(false))
 }
 
 /// The actions whose shortcuts were pressed in this frame. Widgets do not see these key presses.

@@ -97,6 +97,7 @@ impl Editor {
             | Action::ToggleMeanCurvature
             | Action::ToggleGaussianCurvature
             | Action::ToggleZebra => self.canvas.analysis.analysis.toggle(action),
+            Action::ToggleLightPaths => self.canvas.light_paths.on = !self.canvas.light_paths.on,
             Action::TogglePanels => self.show_panels = !self.show_panels,
             Action::FullScreen => toggle_full_screen(ctx),
             Action::Palette => self.dialog = Some(Dialog::Palette(Palette::default())),

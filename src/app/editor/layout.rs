@@ -80,6 +80,7 @@ impl Editor {
             handles: canvas.show_handles,
             x_ray: canvas.sight.x_ray,
             analysis: canvas.analysis.analysis,
+            light_paths: canvas.light_paths.on,
             falloff: canvas.grasp.falloff.on,
             grid: canvas.grasp.grid,
             panels: self.show_panels,

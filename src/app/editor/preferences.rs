@@ -20,6 +20,7 @@ impl Editor {
         self.canvas.matches_window = preferences.match_window;
         self.canvas.analysis.analysis =
             Analysis { isolines: preferences.isolines, shading: shading(preferences.shading) };
+        self.canvas.light_paths.on = preferences.light_paths;
         self.rendering.set_smooth(preferences.smooth);
         self.rendering.set_target(Some(preferences.target_error).filter(|error| *error > 0.0));
         self.panel_sizes = preferences.panels;
@@ -43,6 +44,7 @@ impl Editor {
             grid: self.canvas.grasp.grid,
             isolines: self.canvas.analysis.analysis.isolines,
             shading: shading_name(self.canvas.analysis.analysis.shading),
+            light_paths: self.canvas.light_paths.on,
             show_history: self.show_history,
             show_hint: self.show_hint,
             target_error: self.rendering.target().unwrap_or(0.0),

@@ -25,6 +25,8 @@ pub(crate) struct Preferences {
     /// Whether lines of constant u and v are drawn over the selected surface.
     pub(crate) isolines: bool,
     pub(crate) shading: ShadingName,
+    /// Whether the paths of light at the selected surface are drawn.
+    pub(crate) light_paths: bool,
     pub(crate) show_history: bool,
     /// Whether to show the hint for a first start.
     pub(crate) show_hint: bool,
@@ -50,6 +52,7 @@ impl Default for Preferences {
             grid: None,
             isolines: false,
             shading: ShadingName::default(),
+            light_paths: false,
             show_history: false,
             show_hint: true,
             target_error: 0.001,

@@ -21,6 +21,7 @@ pub(crate) struct Visibility {
     pub(crate) handles: bool,
     pub(crate) x_ray: bool,
     pub(crate) analysis: Analysis,
+    pub(crate) light_paths: bool,
     /// Whether soft selection is on.
     pub(crate) falloff: bool,
     /// The step of the snapping grid, scene units; `None` for the automatic step.
@@ -143,6 +144,7 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
     {
         check_ui(ui, action, visible.analysis.shows(action), commands);
     }
+    check_ui(ui, Action::ToggleLightPaths, visible.light_paths, commands);
     ui.separator();
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
     ui.separator();

@@ -19,7 +19,7 @@
 //! | `preferences` | remembered looks and folders, recent files |
 //! | `outside` | files that other programs change |
 //! | `surface` | splitting and fairing of patches; control points that move together |
-//! | `analysis` | isolines, curvature and reflection lines |
+//! | `analysis` | isolines, curvature and reflection lines; light paths |
 //! | `fields` | typed numbers and names |
 
 mod analysis;

@@ -55,9 +55,14 @@ fn the_next_window_has_the_aids_of_the_window_before() {
     let home = folder();
     let mut first = open_in(home.path());
     let before = first.state().canvas.grasp.falloff.on;
-    for action in
-        [Action::ToggleXRay, Action::ToggleFalloff, Action::MatchWindow, Action::ToggleIsolines, Action::ToggleZebra]
-    {
+    for action in [
+        Action::ToggleXRay,
+        Action::ToggleFalloff,
+        Action::MatchWindow,
+        Action::ToggleIsolines,
+        Action::ToggleZebra,
+        Action::ToggleLightPaths,
+    ] {
         apply(&mut first, AppCommand::Do(action));
     }
     apply(&mut first, AppCommand::Grid(Some(0.25)));
@@ -67,6 +72,7 @@ fn the_next_window_has_the_aids_of_the_window_before() {
     let canvas = &second.state().canvas;
     assert!(canvas.sight.x_ray && canvas.grasp.falloff.on && canvas.matches_window && !before);
     assert_eq!(canvas.analysis.analysis, Analysis { isolines: true, shading: Some(Shading::Zebra) });
+    assert!(canvas.light_paths.on);
     assert_eq!(canvas.grasp.grid, Some(0.25));
     assert!(second.query_all_by_label("mm").count() > 0, "the unit after a length");
 }
