@@ -24,6 +24,8 @@ pub enum Stream {
     /// Where a light's lattice of sheets lies, and the point of the lamp from which it begins; one sequence per light, one index per
     /// iteration.
     LightSheets,
+    /// Rays that tell which parts of a pixel show a surface, one sequence per pixel, one index per iteration.
+    VisibleParts,
     /// The stream with this number in draft frames, whose numbers are independent of the converging picture.
     Draft(u8),
 }
@@ -39,6 +41,7 @@ impl Stream {
             Self::GatheringSample => 6,
             Self::VisibilityPolygon => 7,
             Self::LightSheets => 8,
+            Self::VisibleParts => 9,
             Self::Draft(number) => 0x80 | number,
         }
     }

@@ -13,8 +13,10 @@ const AREA_RATIO: f64 = 1.12;
 /// The same distance and ratio for blocks of which one cell takes the place of four.
 const FLAT_TOLERANCE: f64 = 0.25;
 const FLAT_AREA_RATIO: f64 = 1.03;
-/// Extent of a block, pixels, up to which the areas of its cells do not matter.
+/// Extent of a block, pixels, up to which the areas of its cells do not matter if its landing places deviate so much less. At a fold the light
+/// ends where it is brightest, beyond the corners of the cells: the deviation shifts that edge.
 const SMALL_BLOCK: f64 = 2.0;
+const SMALL_TOLERANCE: f64 = 0.0625;
 
 /// Nine landings of one sheet, row by row over a block of four cells.
 pub(super) type Nine<'a> = [&'a Landing; 9];
@@ -44,10 +46,11 @@ pub(super) fn of_block(camera: &Camera, nine: &Nine) -> Smoothness {
         return Smoothness::Rough;
     }
     let extent = [0, 2, 6, 8].map(|k| p[k].distance(p[4])).into_iter().fold(0.0, f64::max);
-    let ratio = if extent <= SMALL_BLOCK * pixel { 1.0 } else { area_ratio(&p) };
-    if deviation <= FLAT_TOLERANCE * pixel && ratio <= FLAT_AREA_RATIO {
+    let ratio = area_ratio(&p);
+    let is_small = |tolerance| extent <= SMALL_BLOCK * pixel && deviation <= SMALL_TOLERANCE * tolerance * pixel;
+    if deviation <= FLAT_TOLERANCE * pixel && (ratio <= FLAT_AREA_RATIO || is_small(FLAT_TOLERANCE)) {
         Smoothness::Flat
-    } else if deviation <= TOLERANCE * pixel && ratio <= AREA_RATIO {
+    } else if deviation <= TOLERANCE * pixel && (ratio <= AREA_RATIO || is_small(TOLERANCE)) {
         Smoothness::Smooth
     } else {
         Smoothness::Fair
@@ -115,7 +118,8 @@ mod tests {
         assert_eq!(smoothness(0.2, bent(0.05)), Smoothness::Smooth);
         assert_eq!(smoothness(0.2, bent(0.5)), Smoothness::Fair);
         assert_eq!(smoothness(2.0, bent(0.5)), Smoothness::Rough);
-        assert_eq!(smoothness(0.01, bent(0.5)), Smoothness::Flat, "smaller than a pixel");
+        assert_eq!(smoothness(0.01, bent(0.5)), Smoothness::Fair, "the size of a pixel");
+        assert_eq!(smoothness(0.0005, bent(0.5)), Smoothness::Flat, "much smaller than a pixel");
     }
 
     #[test]

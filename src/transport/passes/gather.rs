@@ -5,6 +5,7 @@ use super::gathered::{Gathered, GatheredBatch};
 use super::input::PassInput;
 use super::interleaving::Interleaving;
 use super::pixel_footprint::{PixelFootprint, PointsByPixel};
+use super::visible_parts::{self, VisibleParts};
 use crate::math::lanes::simd_dispatch;
 use crate::math::{Lanes, Rgb, Stream};
 use crate::transport::counters::Counters;
@@ -86,6 +87,9 @@ simd_dispatch! {
         }
     }
 }
+
+/// Where a point asks for the light of sheets; the mean of all counts.
+type SheetQueries = ArrayVec<SheetQuery, { visible_parts::MOST }>;
 
 /// The input of density estimates.
 struct Gatherer<'a> {
@@ -246,19 +250,28 @@ impl Gatherer<'_> {
         polygon
     }
 
-    /// Where a point asks for the light of sheets: over the pixel if that shows one piece of a surface, otherwise close around the point.
+    /// Where a point asks for the light of sheets: over the parts of the pixel that show one piece of a surface, otherwise close around the
+    /// point.
     #[inline]
-    fn sheet_query(&self, point: &VisiblePoint, parts_of_pixel: u32) -> SheetQuery {
+    fn sheet_queries(&self, point: &VisiblePoint, parts_of_pixel: u32) -> SheetQueries {
         let PassInput { world, plan, iteration, .. } = self.input;
         let tags = [point.tag, point.photon_bounces + 1];
+        let over = |PixelFootprint { middle, sides, .. }| SheetQuery::parallelogram(middle, point.n_side, sides, tags);
         match self.by_pixel.footprint(world, point) {
-            Some(whole) => {
-                let PixelFootprint { middle, sides } = whole.part(parts_of_pixel, point.in_pixel);
-                SheetQuery::parallelogram(middle, point.n_side, sides, tags)
+            Some(whole) if whole.is_whole || parts_of_pixel > 1 => {
+                SheetQueries::from_iter([over(whole.part(parts_of_pixel, point.in_pixel))])
             }
-            None => {
+            Some(whole) if !plan.is_draft() => {
+                let parts = VisibleParts::of_point(&self.input, point, plan.parts_of_edge(iteration));
+                if parts.is_whole() {
+                    SheetQueries::from_iter([over(whole)])
+                } else {
+                    parts.middles.iter().map(|middle| over(whole.part(parts.count, *middle))).collect()
+                }
+            }
+            _ => {
                 let side = point.footprint * plan.sheet_filter(point.seen_directly, iteration) as f32;
-                SheetQuery::square(point.position, point.n_side, side, tags)
+                SheetQueries::from_iter([SheetQuery::square(point.position, point.n_side, side, tags)])
             }
         }
     }
@@ -270,14 +283,17 @@ impl Gatherer<'_> {
         let facets = &self.facets[point.first_facet as usize..][..point.facets as usize];
         let is_even = point.seen_directly && facets.is_empty() && point.mean_albedo == point.scattering.albedo;
         let parts = if is_even { 1 } else { self.input.plan.parts_of_pixel(self.input.iteration) };
-        let query = self.sheet_query(point, parts);
+        let queries = self.sheet_queries(point, parts);
+        let throughput = point.throughput / queries.len() as f32;
         let part = 1.0 / parts as f32;
         let albedo = point.scattering.albedo.lerp(point.mean_albedo, part);
         let scattering = Scattering { albedo, ..point.scattering };
         let mut reflected = Rgb::ZERO;
         if facets.is_empty() && point.n_shade == point.n_side && !is_glossy(point) {
-            self.sheets.for_each(l, &query, |irradiance, _| reflected += irradiance);
-            return point.throughput * reflected * bsdf::eval_diffuse(&scattering);
+            for query in &queries {
+                self.sheets.for_each(l, query, |irradiance, _| reflected += irradiance);
+            }
+            return throughput * reflected * bsdf::eval_diffuse(&scattering);
         }
         let (wo, n_side, n_shade) = (point.wo.as_dvec3(), point.n_side.as_dvec3(), point.n_shade.as_dvec3());
         let factor = |wi: DVec3, n_shade: DVec3| bsdf::diffuse_shading_factor(wi, n_side, n_shade) as f32;
@@ -286,13 +302,15 @@ impl Gatherer<'_> {
             let of_facet = |facet: &Facet| facet.albedo * factor(wi, facet.normal.as_dvec3());
             facets.iter().map(of_facet).sum::<Rgb>() * FRAC_1_PI / facets.len() as f32
         };
-        self.sheets.for_each(l, &query, |irradiance, wi| {
-            let wi = wi().as_dvec3();
-            let at_point = at_point(wi);
-            let scattered = if facets.is_empty() { at_point } else { at_point.lerp(over_pixel(wi), part) };
-            reflected += irradiance * scattered;
-        });
-        point.throughput * reflected
+        for query in &queries {
+            self.sheets.for_each(l, query, |irradiance, wi| {
+                let wi = wi().as_dvec3();
+                let at_point = at_point(wi);
+                let scattered = if facets.is_empty() { at_point } else { at_point.lerp(over_pixel(wi), part) };
+                reflected += irradiance * scattered;
+            });
+        }
+        throughput * reflected
     }
 
     #[inline(always)]

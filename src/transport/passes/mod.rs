@@ -9,6 +9,7 @@
 //! | `camera/` | the camera pass: direct light and visible points |
 //! | `interleaving` | points that gather irradiance for their neighbours |
 //! | `pixel_footprint` | what part of a surface a pixel shows |
+//! | `visible_parts` | which parts of a pixel show a surface |
 //! | `gathered` | the result of the gather pass |
 //! | `gather` | the gather pass: density estimates at visible points |
 //! | `lobe_sample` | the light that a pixel sees in its Phong lobe |
@@ -29,6 +30,7 @@ mod light_sheets;
 mod lobe_reuse;
 mod lobe_sample;
 mod pixel_footprint;
+mod visible_parts;
 
 pub use band::{Band, Contribution};
 pub use camera::{CameraBatch, FirstHit, camera_pass};

@@ -16,6 +16,8 @@ const AROUND: [[i32; 2]; 8] = [[-1, -1], [0, -1], [1, -1], [-1, 0], [1, 0], [-1,
 pub(super) struct PixelFootprint {
     pub(super) middle: Vec3,
     pub(super) sides: [Vec3; 2],
+    /// Whether the pixel, as far as the points in it and around it tell, shows nothing else.
+    pub(super) is_whole: bool,
 }
 
 impl PixelFootprint {
@@ -27,6 +29,7 @@ impl PixelFootprint {
         Self {
             middle: self.middle + from_middle.x * self.sides[0] + from_middle.y * self.sides[1],
             sides: self.sides.map(|side| side / count),
+            is_whole: self.is_whole,
         }
     }
 }
@@ -54,28 +57,26 @@ impl<'a> PointsByPixel<'a> {
         Self { points, camera, first_pixel, ranges }
     }
 
-    /// The piece of the surface at a point that its pixel shows; `None` where the pixel shows more than one surface, or a surface that is too
-    /// bent.
+    /// The piece of the surface at a point that its pixel shows; `None` where the surface is too oblique or what shows it too bent.
     #[inline]
     pub(super) fn footprint(&self, world: &World, point: &VisiblePoint) -> Option<PixelFootprint> {
         if point.seen_directly { self.directly(world, point) } else { self.through_mirrors(point) }
     }
 
     fn directly(&self, world: &World, point: &VisiblePoint) -> Option<PixelFootprint> {
-        let is_whole = |other: &VisiblePoint| other.seen_directly && !other.on_an_edge && other.tag == point.tag;
+        let is_same = |other: &VisiblePoint| other.seen_directly && !other.on_an_edge && other.tag == point.tag;
         let shows_same = |[x, y]: &[i32; 2]| {
-            self.neighbours(point, [*x, *y]).is_none_or(|neighbours| neighbours.iter().any(is_whole))
+            self.neighbours(point, [*x, *y]).is_none_or(|neighbours| neighbours.iter().any(is_same))
         };
         // The pixel's own paths seldom tell of an edge that cuts off a corner of it.
-        if point.on_an_edge || !AROUND.iter().all(shows_same) {
-            return None;
-        }
+        let is_whole = !point.on_an_edge && AROUND.iter().all(shows_same);
         let origin = world.view.origin;
         let (position, normal) = (point.position.as_dvec3() + origin, point.n_side.as_dvec3());
         let [middle, right, below] = self.camera.pixel_on_plane(point.pixel, position, normal, LARGEST)?;
         Some(PixelFootprint {
             middle: (middle - origin).as_vec3(),
             sides: [right, below].map(|side: DVec3| side.as_vec3()),
+            is_whole,
         })
     }
 
@@ -119,6 +120,7 @@ impl<'a> PointsByPixel<'a> {
         (!is_flat).then(|| PixelFootprint {
             middle: point.position + along_x * to_middle.x + along_y * to_middle.y,
             sides: [0.5 * along_x, 0.5 * along_y],
+            is_whole: true,
         })
     }
 
@@ -160,7 +162,7 @@ mod tests {
     fn neighbours_tell_what_a_pixel_shows_in_a_mirror() {
         let (points, camera) = (points(Vec3::ZERO), camera());
         let by_pixel = PointsByPixel::new(&points, &camera);
-        let PixelFootprint { middle, sides } = by_pixel.through_mirrors(&points[4]).expect("it is linear");
+        let PixelFootprint { middle, sides, .. } = by_pixel.through_mirrors(&points[4]).expect("it is linear");
         assert!((middle - Vec3::new(0.045, 0.0, 0.045)).length() < 1e-6, "{middle}");
         assert!(
             (sides[0] - Vec3::X * 0.01).length() < 1e-6 && (sides[1] - Vec3::new(0.005, 0.0, 0.015)).length() < 1e-6
@@ -180,7 +182,7 @@ mod tests {
 
     #[test]
     fn parts_divide_the_piece() {
-        let whole = PixelFootprint { middle: Vec3::X, sides: [Vec3::X * 0.3, Vec3::Z * 0.6] };
+        let whole = PixelFootprint { middle: Vec3::X, sides: [Vec3::X * 0.3, Vec3::Z * 0.6], is_whole: true };
         let mut sum = Vec3::ZERO;
         for k in 0..9 {
             let part = whole.part(3, (Vec2::new((k % 3) as f32, (k / 3) as f32) + 0.4) / 3.0);
@@ -200,8 +202,12 @@ mod tests {
         let position = (-world.view.origin).as_vec3();
         let seen = |pixel: u32| VisiblePoint { pixel, position, n_side: Vec3::Z, ..visible_point() };
         let mut points: Vec<VisiblePoint> = (0..9).map(seen).collect();
-        assert!(PointsByPixel::new(&points, &camera).footprint(&world, &points[4]).is_some());
+        let is_whole = |points: &[VisiblePoint]| {
+            let footprint = PointsByPixel::new(points, &camera).footprint(&world, &points[4]);
+            footprint.expect("the wall is not oblique").is_whole
+        };
+        assert!(is_whole(&points));
         points[2].on_an_edge = true;
-        assert!(PointsByPixel::new(&points, &camera).footprint(&world, &points[4]).is_none());
+        assert!(!is_whole(&points));
     }
 }

@@ -12,11 +12,13 @@ use std::ops::Range;
 /// gathers photons, which is most of the work.
 const CAMERA_SAMPLES: f64 = 4.0;
 
-/// Side of the square over which sheets of light are averaged after one full iteration, pixels, at the edge of a surface: a larger one would
-/// lie on other surfaces, too.
-const EDGE_FILTER: f64 = 0.5;
+/// Side of the square over which sheets of light are averaged after one full iteration, pixels, where a pixel shows much of an oblique surface.
+const OBLIQUE_FILTER: f64 = 0.5;
 /// The same where mirrors or glass bend what a pixel shows: a smaller one would seldom meet the bright spots of a lens.
 const BENT_FILTER: f64 = 2.0;
+
+/// Parts along the side of a pixel beside an edge, less 1, in the first iterations.
+const PARTS_OF_EDGE: u32 = 3;
 
 /// Iterations that average sheets of light over whole pixels: while noise is greater than the bias of that.
 const WHOLE_PIXEL_ITERATIONS: f64 = 8.0;
@@ -78,10 +80,15 @@ impl Plan {
         if self.is_draft { 1 } else { (iteration as f64 / WHOLE_PIXEL_ITERATIONS).cbrt().round().max(1.0) as u32 }
     }
 
+    /// Number of parts along the side of a pixel beside the edge of a surface, of each of which one ray tells whether it shows the surface.
+    pub(in crate::transport) fn parts_of_edge(&self, iteration: u64) -> u32 {
+        PARTS_OF_EDGE + self.parts_of_pixel(iteration)
+    }
+
     /// Side of the square over which sheets of light are averaged where a pixel shows no single piece of a surface, pixels. In a picture that
     /// converges it shrinks, so that its blur goes.
     pub(in crate::transport) fn sheet_filter(&self, seen_directly: bool, iteration: u64) -> f64 {
-        let side = if seen_directly { EDGE_FILTER } else { BENT_FILTER };
+        let side = if seen_directly { OBLIQUE_FILTER } else { BENT_FILTER };
         if self.is_draft { side.max(1.0) } else { side * schedule::shrink(iteration).min(1.0) }
     }
 
