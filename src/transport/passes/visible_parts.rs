@@ -42,6 +42,7 @@ impl VisibleParts {
                 .extend(found.filter(|(_, (ray, hit))| hit.is_some_and(|hit| shows(ray, hit))).map(|(k, _)| middle(k)));
         }
         if middles.is_empty() {
+            // The point itself is seen, on a part of which too little shows for these rays.
             middles.push(((point.in_pixel * count as f32).floor() + 0.5) / count as f32);
         }
         Self { count, middles }

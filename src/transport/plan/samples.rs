@@ -12,7 +12,8 @@ use std::ops::Range;
 /// gathers photons, which is most of the work.
 const CAMERA_SAMPLES: f64 = 4.0;
 
-/// Side of the square over which sheets of light are averaged after one full iteration, pixels, where a pixel shows much of an oblique surface.
+/// Side of the square over which sheets of light are averaged after one full iteration, pixels, where a pixel shows much of an oblique surface
+/// or, in a draft, an edge.
 const OBLIQUE_FILTER: f64 = 0.5;
 /// The same where mirrors or glass bend what a pixel shows: a smaller one would seldom meet the bright spots of a lens.
 const BENT_FILTER: f64 = 2.0;
