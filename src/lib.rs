@@ -228,6 +228,7 @@
 //! - \[Owen97\] A. B. Owen, Scrambled Net Variance for Integrals of Smooth Functions, Annals of Statistics 25(4), 1997.
 //! - \[Reinhard02\] E. Reinhard et al., Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002.
 //! - \[Schuessler17\] V. Schüßler et al., Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing, ACM TOG 36(6), 2017.
+//! - \[Shoemake92\] K. Shoemake, Uniform Random Rotations, Graphics Gems III, 1992.
 //! - \[ShirleyChiu97\] P. Shirley, K. Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997.
 //! - \[SutherlandHodgman74\] I. Sutherland, G. Hodgman, Reentrant Polygon Clipping, CACM 17(1), 1974.
 //! - \[Umenhoffer08\] T. Umenhoffer, G. Patow, L. Szirmay-Kalos, Caustic Triangles on the GPU, CGI 2008.

@@ -18,6 +18,8 @@ pub(super) struct Statistics<'a> {
     height: u32,
     pass_seconds: PassSeconds,
     counters: Counters,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    light_sheets: Option<String>,
     energy: EnergyBalances,
     #[serde(skip_serializing_if = "Option::is_none")]
     plan: Option<Vec<Note<'a>>>,
@@ -90,6 +92,7 @@ impl<'a> Statistics<'a> {
             height,
             pass_seconds: stats.passes,
             counters: stats.counters,
+            light_sheets: stats.light_sheets().map(|share| share.to_string()),
             energy: EnergyBalances {
                 caustics: EnergyBalance::new(stats.energy.caustics, stats.energy.worst_of_caustics),
                 interreflection: EnergyBalance::new(

@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"PLFILM\r\n";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// Length of the fields before the head.
 const FIELDS: usize = 32;
 /// Most bytes of a head: the paths of systems have up to 4096 bytes.

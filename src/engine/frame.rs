@@ -1,7 +1,7 @@
 //! A picture and its statistics.
 
 use crate::film::LinearImage;
-use crate::transport::{Counters, Energy, PlanItem, PlanNote};
+use crate::transport::{Counters, Energy, PathEnergy, PlanItem, PlanNote};
 use crate::world::Warning;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -87,6 +87,36 @@ impl Stats {
             counters,
             ..Self::default()
         }
+    }
+}
+
+impl Stats {
+    /// How the caustics divide between light sheets and photons; `None` without light sheets.
+    pub fn light_sheets(&self) -> Option<SheetShare> {
+        let PathEnergy { stored, sheets, .. } = self.energy.caustics;
+        let cells = self.counters.sheet_cells / self.iterations.max(1);
+        (cells > 0)
+            .then(|| SheetShare { cells, photons: (1.0 - sheets / stored.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0) })
+    }
+}
+
+/// How caustics divide between light sheets and photons. `Display` says so in words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetShare {
+    /// Cells of light sheets in an iteration.
+    pub cells: u64,
+    /// Fraction of the flux of caustics that photons bring, 0 to 1.
+    pub photons: f64,
+}
+
+impl fmt::Display for SheetShare {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { cells, photons } = self;
+        write!(
+            f,
+            "{cells} cells of light sheets an iteration, {:.1} % of the caustics left to photons",
+            100.0 * photons
+        )
     }
 }
 

@@ -45,7 +45,7 @@ pub use checkpoint::{Checkpoint, CheckpointError, CheckpointFile};
 pub use draft::Draft;
 pub use film_part::FilmPart;
 pub use film_sums::{FilmSums, MOST_ITERATIONS};
-pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, Stats};
+pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, SheetShare, Stats};
 pub use handle::Engine;
 pub use iteration::iterate;
 pub use messages::{Command, EngineError, EngineSettings, Status};

@@ -23,6 +23,13 @@ pub fn cosine_hemisphere(u: DVec2) -> DVec3 {
     disc.extend((1.0 - disc.length_squared()).max(0.0).sqrt())
 }
 
+/// A point in the unit ball with density `1 / (pi^2 sqrt(1 - r^2))`: along every direction its points cover the ball's disc evenly. It is an
+/// even point of the unit sphere in four dimensions \[Shoemake92\], without the fourth coordinate.
+pub fn ball_of_even_discs(u: DVec2, v: f64) -> DVec3 {
+    let (first, second) = ((1.0 - u.x).max(0.0).sqrt(), u.x.max(0.0).sqrt());
+    (first * DVec2::from_angle(TAU * u.y)).extend(second * (TAU * v).cos())
+}
+
 /// A direction with density `1 / (4 pi)` per steradian.
 pub fn uniform_sphere(u: DVec2) -> DVec3 {
     let z = 1.0 - 2.0 * u.x;
@@ -83,6 +90,12 @@ mod tests {
         let in_square = |sampler: &mut Sampler| Some(0.5 * (concentric_disc(sampler.next_2d()) + 1.0));
         let disc = |p: DVec2| if (2.0 * p - 1.0).length() <= 1.0 { 4.0 / PI } else { 0.0 };
         assert_has_density("disc", in_square, disc);
+        let axes = [DVec3::X, DVec3::new(0.0, 0.6, 0.8)];
+        let across = |sampler: &mut Sampler| {
+            let point = ball_of_even_discs(sampler.next_2d(), sampler.next_1d());
+            Some(0.5 * (DVec2::from(axes.map(|axis| axis.dot(point))) + 1.0))
+        };
+        assert_has_density("ball", across, disc);
     }
 
     fn grid() -> impl Iterator<Item = DVec2> {

@@ -19,6 +19,8 @@ pub struct Counters {
     pub photons_stored: u64,
     /// Photons splatted to the film without a map.
     pub splats: u64,
+    /// Cells of light sheets.
+    pub sheet_cells: u64,
     /// Density estimates in the caustic map.
     pub caustic_gathers: u64,
     /// Density estimates in the maps of interreflection.
@@ -68,6 +70,7 @@ impl AddAssign for Counters {
         self.global_paths += other.global_paths;
         self.photons_stored += other.photons_stored;
         self.splats += other.splats;
+        self.sheet_cells += other.sheet_cells;
         self.caustic_gathers += other.caustic_gathers;
         self.global_gathers += other.global_gathers;
         self.map_builds += other.map_builds;

@@ -83,8 +83,10 @@ pub struct PathEnergy {
     pub arrived: f64,
     /// The part of `arrived` that camera paths bring: direct light, and the MIS weight of camera paths at Phong lobes.
     pub camera_paths: f64,
-    /// The part of `arrived` that is stored for the camera, in a map or on the film.
+    /// The part of `arrived` that is stored for the camera, in a map, on the film or in light sheets.
     pub stored: f64,
+    /// Caustics: the part of `stored` that light sheets bring.
+    pub sheets: f64,
 }
 
 impl PathEnergy {
@@ -176,6 +178,7 @@ impl AddAssign for PathEnergy {
         self.arrived += other.arrived;
         self.camera_paths += other.camera_paths;
         self.stored += other.stored;
+        self.sheets += other.sheets;
     }
 }
 

@@ -2,11 +2,11 @@
 
 use crate::app::rendering::Renames;
 use crate::app::theme;
-use crate::engine::PlanSummary;
+use crate::engine::{PlanItem, PlanSummary, Stats};
 use egui::Ui;
 
-/// The plan, one line per note.
-pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
+/// The plan, one line per note, and how its light sheets do.
+pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary, stats: &Stats) {
     let palette = theme::palette(ui.visuals().dark_mode);
     for note in &plan.notes {
         ui.horizontal_wrapped(|ui| {
@@ -14,7 +14,9 @@ pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary) {
             ui.colored_label(color, mark);
             ui.label(note.item.to_string());
             let how = if note.rendered { "" } else { "skipped: " };
-            ui.weak(format!("{how}{}", note.reason));
+            let share = stats.light_sheets().filter(|_| note.item == PlanItem::Caustics);
+            let share = share.map_or_else(String::new, |share| format!("; {share}"));
+            ui.weak(format!("{how}{}{share}", note.reason));
         });
     }
 }

@@ -44,7 +44,7 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
         passes_ui(ui, &frame.stats);
     });
     statistics.header_response.on_hover_text("Counts of paths and rays, and the time of each pass");
-    let plan = CollapsingHeader::new("Plan").default_open(false).show(ui, |ui| plan_ui(ui, &frame.plan));
+    let plan = CollapsingHeader::new("Plan").default_open(false).show(ui, |ui| plan_ui(ui, &frame.plan, &frame.stats));
     plan.header_response.on_hover_text("What the renderer does for this scene, and why");
 }
 

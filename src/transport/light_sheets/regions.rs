@@ -6,7 +6,10 @@ use glam::DVec2;
 /// Density of photons where sheets bring the light, over that where photons bring it: for faint ways, which no sheet claims, and in case the
 /// lattice missed a surface. With less, the few photons that find such light would be bright dots.
 const BESIDE_SHEETS: f64 = 0.125;
-/// Fraction of the photons where the lattice found no caustics, in case it missed all of them (defensive sampling).
+/// Density of photons where a lattice was traced and found no caustics, over that where photons bring all light, in case it missed some: with
+/// less, the few photons that find such light would be bright dots.
+const BESIDE_LIGHT: f64 = 0.03;
+/// Fraction of the photons where no lattice was traced (defensive sampling).
 const DEFENSIVE: f64 = 0.03;
 
 /// A rectangle of the unit square of a light's chart.
@@ -17,6 +20,8 @@ pub(super) struct Region {
     pub(super) claims: Vec<Signature>,
     /// Share of the light that photons have to bring; more than 1 counts as 1.
     pub(super) unclaimed: f32,
+    /// Whether a lattice was traced in it.
+    pub(super) is_traced: bool,
 }
 
 impl Region {
@@ -48,10 +53,15 @@ impl Regions {
         let mut all = Self { cumulative: vec![0.0], ..Self::default() };
         let regions: Vec<Region> = regions.filter(|region| region.area() > 0.0).collect();
         let all_light: f64 = regions.iter().filter(|region| region.has_light()).map(Region::area).sum();
-        let dark = DEFENSIVE * all_light.max(f64::MIN_POSITIVE);
+        let all_light = all_light.max(f64::MIN_POSITIVE);
+        let density = |region: &Region| match (region.has_light(), region.is_traced) {
+            (true, _) => f64::from(region.unclaimed).clamp(BESIDE_SHEETS, 1.0),
+            (false, true) => BESIDE_LIGHT,
+            (false, false) => DEFENSIVE * all_light,
+        };
         let mut sum = 0.0;
         for region in regions {
-            let density = if region.has_light() { f64::from(region.unclaimed).clamp(BESIDE_SHEETS, 1.0) } else { dark };
+            let density = density(&region);
             sum += region.area() * density;
             let Region { rectangle, claims, .. } = region;
             all.rectangles.push(rectangle);
@@ -60,7 +70,7 @@ impl Regions {
             all.claims_end.push(all.claims.len() as u32);
         }
         all.cumulative.iter_mut().for_each(|x| *x /= sum);
-        let photon_fraction = (sum / all_light.max(f64::MIN_POSITIVE)).min(1.0);
+        let photon_fraction = (sum / all_light).min(1.0);
         Self { photon_fraction, ..all }
     }
 
@@ -90,36 +100,38 @@ mod tests {
     #[test]
     fn photons_go_where_light_is_left() {
         let claimed = Signature::default().reflected(1);
-        let region = |x: f64, claims: &[Signature], unclaimed: f32| Region {
-            rectangle: [DVec2::new(x, 0.0), DVec2::new(0.25, 1.0)],
+        let region = |x: f64, claims: &[Signature], unclaimed: f32, is_traced: bool| Region {
+            rectangle: [DVec2::new(x, 0.0), DVec2::new(0.2, 1.0)],
             claims: claims.to_vec(),
             unclaimed,
+            is_traced,
         };
         let all = [
-            region(0.0, &[claimed], 0.0),
-            region(0.25, &[], 0.0),
-            region(0.5, &[], 1.7),
-            region(0.75, &[claimed], 0.5),
+            region(0.0, &[claimed], 0.0, true),
+            region(0.2, &[], 0.0, false),
+            region(0.4, &[], 0.0, true),
+            region(0.6, &[], 1.7, true),
+            region(0.8, &[claimed], 0.5, true),
         ];
         let regions = Regions::new(all.into_iter());
         let n = 4096;
-        let mut counts = [0; 4];
+        let mut counts = [0; 5];
         let mut area = 0.0;
         for k in 0..n {
             let (square, density, claims) = regions.sample(Sampler::new(1, Stream::CausticPhoton, 0, k).next_2d());
-            let column = (4.0 * square.x) as usize;
+            let column = (5.0 * square.x) as usize;
             counts[column] += 1;
             area += 1.0 / density;
-            let expected = if column.is_multiple_of(3) { vec![claimed] } else { Vec::new() };
+            let expected = if column.is_multiple_of(4) { vec![claimed] } else { Vec::new() };
             assert_eq!(claims, expected, "{square}");
         }
         assert!((area / n as f64 - 1.0).abs() < 0.01, "densities are those of the samples: {area}");
-        let dark = DEFENSIVE * 0.75;
-        let expected = [BESIDE_SHEETS, dark, 1.0, 0.5].map(|density| density / (BESIDE_SHEETS + dark + 1.5) * n as f64);
-        for (count, expected) in counts.into_iter().zip(expected) {
-            assert!((f64::from(count) - expected).abs() < 3.0, "{counts:?}");
+        let densities = [BESIDE_SHEETS, DEFENSIVE * 0.6, BESIDE_LIGHT, 1.0, 0.5];
+        let sum: f64 = densities.iter().sum();
+        for (count, density) in counts.into_iter().zip(densities) {
+            assert!((f64::from(count) - density / sum * n as f64).abs() < 3.0, "{counts:?}");
         }
-        let fraction = (BESIDE_SHEETS + dark + 1.5) * 0.25 / 0.75;
+        let fraction = sum * 0.2 / 0.6;
         assert!((regions.photon_fraction() - fraction).abs() < 1e-9);
     }
 }

@@ -45,6 +45,7 @@ impl LightSheets {
             keyed.iter().zip(0..).map(|((signature, _), index)| (*signature, index)).collect();
         order.par_sort_unstable();
         let cells: Vec<SheetCell> = order.into_par_iter().map(|(_, index)| keyed[index as usize].1).collect();
+        counters.sheet_cells += cells.len() as u64;
         let bounds: Vec<[Vec3; 2]> = cells.par_iter().map(SheetCell::bounds).collect();
         (Self { tree: BoxTree::new(&bounds), cells }, regions, counters)
     }

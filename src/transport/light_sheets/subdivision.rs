@@ -57,7 +57,10 @@ impl Lattice<'_> {
     /// A square of the lattice without any sheet.
     pub(in crate::transport) fn undivided(&self, square: UVec2) -> Divided {
         let rectangle = self.chart_rectangle(square, [UVec2::ZERO, UVec2::splat(self.steps)]);
-        Divided { regions: vec![Region { rectangle, claims: Vec::new(), unclaimed: 0.0 }], ..Divided::default() }
+        Divided {
+            regions: vec![Region { rectangle, claims: Vec::new(), unclaimed: 0.0, is_traced: false }],
+            ..Divided::default()
+        }
     }
 
     /// Divides a square of the lattice until its blocks are smooth.
@@ -91,6 +94,8 @@ struct SheetsOfBlock {
     sheets: Vec<SheetOfBlock>,
     /// The greatest share that all faint sheets have at one of the points.
     faint: f32,
+    /// Whether no sheet was left out because it is not flat.
+    are_all: bool,
 }
 
 impl SheetsOfBlock {
@@ -103,9 +108,21 @@ impl SheetsOfBlock {
     }
 
     /// Those of which one cell follows the light.
-    fn flat(self) -> Self {
-        let is_flat = |sheet: &SheetOfBlock| sheet.smoothness == Smoothness::Flat;
-        Self { sheets: self.sheets.into_iter().filter(is_flat).collect(), ..self }
+    fn flat(mut self) -> Self {
+        let count = self.sheets.len();
+        self.sheets.retain(|sheet| sheet.smoothness == Smoothness::Flat);
+        Self { are_all: self.are_all && self.sheets.len() == count, ..self }
+    }
+
+    /// Those of which one cell follows the light in all of a block, from those that do so in its parts.
+    fn flat_in(self, parts: &[Self; 4]) -> Self {
+        let mut flat = self.flat();
+        flat.sheets.retain(|sheet| parts.iter().all(|part| part.has(&sheet.signature)));
+        let count = flat.sheets.len();
+        // A sheet of a part may slip between the points of the block.
+        flat.are_all &= parts.iter().all(|part| part.are_all && part.sheets.len() == count);
+        flat.faint = parts.iter().map(|part| part.faint).fold(flat.faint, f32::max);
+        flat
     }
 }
 
@@ -173,19 +190,15 @@ impl Division<'_> {
             }
             known = Some(found);
         }
-        let flat_in_parts = block.children().map(|child| self.divide(child));
-        let found = known.unwrap_or_else(|| self.sheets(block));
-        let count = found.sheets.len();
-        let mut joined = found.flat();
-        joined.sheets.retain(|sheet| flat_in_parts.iter().all(|part| part.has(&sheet.signature)));
-        let are_all = joined.sheets.len() == count && flat_in_parts.iter().all(|part| part.sheets.len() == count);
-        self.join(block, before, &joined, are_all);
+        let parts = block.children().map(|child| self.divide(child));
+        let joined = known.unwrap_or_else(|| self.sheets(block)).flat_in(&parts);
+        self.join(block, before, &joined);
         joined
     }
 
     /// Takes one cell of each of these sheets in place of those that were found since `before`; if these are all sheets, one region, too.
-    fn join(&mut self, block: Block, before: [usize; 2], joined: &SheetsOfBlock, are_all: bool) {
-        if are_all {
+    fn join(&mut self, block: Block, before: [usize; 2], joined: &SheetsOfBlock) {
+        if joined.are_all {
             self.found.cells.truncate(before[0]);
             self.found.regions.truncate(before[1]);
             self.add_block(block, joined);
@@ -247,7 +260,7 @@ impl Division<'_> {
         let faint = |range: &Range<usize>| -> f32 {
             self.landings[range.clone()].iter().filter(is_faint).map(|landing| landing.share).sum()
         };
-        SheetsOfBlock { sheets, faint: points.iter().map(faint).fold(0.0, f32::max) }
+        SheetsOfBlock { sheets, faint: points.iter().map(faint).fold(0.0, f32::max), are_all: true }
     }
 
     fn add_cell(&mut self, block: Block, sheet: &SheetOfBlock, corners: [usize; 4]) {
@@ -268,7 +281,7 @@ impl Division<'_> {
 
     fn add_region(&mut self, steps: [UVec2; 2], claims: Vec<Signature>, unclaimed: f32) {
         let rectangle = self.lattice.chart_rectangle(self.square, steps);
-        self.found.regions.push(Region { rectangle, claims, unclaimed });
+        self.found.regions.push(Region { rectangle, claims, unclaimed, is_traced: true });
     }
 }
 

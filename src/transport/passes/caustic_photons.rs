@@ -52,18 +52,15 @@ impl Counted for CausticPhotons {
 pub fn caustic_photon_pass(input: &PassInput) -> Option<CausticPhotons> {
     let PassInput { plan, iteration, .. } = *input;
     let Some(caustics) = &plan.caustics else { return Some(CausticPhotons::default()) };
-    let paths = |&count: &u64| plan.paths(count, iteration);
     let to_map = plan.needs_caustic_map(iteration);
     let sheets = light_sheet_pass(input, caustics)?;
-    let left: Vec<Range<u64>> = caustics.paths.iter().map(paths).zip(&sheets.of_lights).map(left_to_photons).collect();
-    let blocks: Vec<CausticPhotons> = path_blocks(left.iter().cloned())
+    let sources = sources(input, caustics, &sheets.of_lights);
+    let blocks: Vec<CausticPhotons> = path_blocks(sources.iter().map(|source| source.paths.clone()))
         .into_par_iter()
         .map(|block| {
-            let mut tracer = CausticTracer::new(input, caustics, &sheets.of_lights, to_map);
-            let count = left[block.light].end - left[block.light].start;
-            // One sequence over all iterations: its points keep filling each other's gaps.
-            for index in block.paths.clone() {
-                tracer.trace(block.light, count, input.sampler(Stream::CausticPhoton, block.light as u64, index));
+            let mut tracer = CausticTracer::new(input, caustics, &sources[block.source], to_map);
+            for index in block.paths {
+                tracer.trace(index);
             }
             (!input.cancel.is_cancelled()).then_some(tracer.found)
         })
@@ -77,11 +74,29 @@ pub fn caustic_photon_pass(input: &PassInput) -> Option<CausticPhotons> {
     })
 }
 
-/// The paths of a light on which photons bring what its sheets, if any, leave to them.
-fn left_to_photons((paths, sheets): (Range<u64>, &Option<SheetsOfLight>)) -> Range<u64> {
-    let fraction = sheets.as_ref().map_or(1.0, |sheets| sheets.regions.photon_fraction());
-    let count = ((paths.end - paths.start) as f64 * fraction).ceil() as u64;
-    paths.start..paths.start + count
+/// Where caustic photons come from: a light, or one of its points that has sheets.
+struct Source<'a> {
+    light: usize,
+    /// The sheets, and what they leave to photons.
+    sheets: Option<&'a SheetsOfLight>,
+    /// Indices of the paths in the light's sequence.
+    paths: Range<u64>,
+}
+
+/// The sources of an iteration, each with as many paths as its sheets, if any, leave to photons.
+fn sources<'a>(input: &PassInput, caustics: &CausticPlan, of_lights: &'a [Vec<SheetsOfLight>]) -> Vec<Source<'a>> {
+    let of_light = |(light, points): (usize, &'a Vec<SheetsOfLight>)| {
+        let paths = input.plan.paths(caustics.paths[light], input.iteration);
+        let count = (paths.end - paths.start) / points.len().max(1) as u64;
+        let of_point = move |(k, sheets): (u64, &'a SheetsOfLight)| {
+            let start = paths.start + k * count;
+            let left = (count as f64 * sheets.regions.photon_fraction()).ceil() as u64;
+            Source { light, sheets: Some(sheets), paths: start..start + left }
+        };
+        let alone = points.is_empty().then(|| Source { light, sheets: None, paths: paths.clone() });
+        alone.into_iter().chain((0..).zip(points).map(of_point))
+    };
+    of_lights.iter().enumerate().flat_map(of_light).collect()
 }
 
 /// Traces caustic photon paths, which branch at glass.
@@ -89,7 +104,7 @@ struct CausticTracer<'a> {
     input: &'a PassInput<'a>,
     world: &'a World,
     caustics: &'a CausticPlan,
-    sheets: &'a [Option<SheetsOfLight>],
+    source: &'a Source<'a>,
     to_map: bool,
     found: CausticPhotons,
     /// Branches of the present path still to follow.
@@ -99,33 +114,32 @@ struct CausticTracer<'a> {
 }
 
 impl<'a> CausticTracer<'a> {
-    fn new(
-        input: &'a PassInput<'a>,
-        caustics: &'a CausticPlan,
-        sheets: &'a [Option<SheetsOfLight>],
-        to_map: bool,
-    ) -> Self {
+    fn new(input: &'a PassInput<'a>, caustics: &'a CausticPlan, source: &'a Source<'a>, to_map: bool) -> Self {
         let found = CausticPhotons::default();
-        Self { input, world: input.world, caustics, sheets, to_map, found, branches: Vec::new(), claims: &[] }
+        Self { input, world: input.world, caustics, source, to_map, found, branches: Vec::new(), claims: &[] }
     }
 
-    /// Traces one of `path_count` paths of a light.
-    fn trace(&mut self, light: usize, path_count: u64, mut sampler: Sampler) {
+    /// Traces the path of this index of the source.
+    fn trace(&mut self, index: u64) {
         self.found.counters.caustic_paths += 1;
-        let Some(emission) = self.emit(light, &mut sampler) else { return };
-        let flux = emission.flux / path_count as f32;
+        let Source { light, paths, .. } = self.source;
+        // One sequence over all iterations: its points keep filling each other's gaps.
+        let mut sampler = self.input.sampler(Stream::CausticPhoton, *light as u64, index);
+        let Some(emission) = self.emit(&mut sampler) else { return };
+        let flux = emission.flux / (paths.end - paths.start) as f32;
         self.found.energy.emitted += power(flux);
         let weak = WEAK_BRANCH * flux.max_element();
-        self.branches.push(CausticBranch::from_light(self.world, light, Emission { flux, ..emission }));
+        self.branches.push(CausticBranch::from_light(self.world, *light, Emission { flux, ..emission }));
         while let Some(branch) = self.branches.pop() {
             self.follow(branch, weak, &mut sampler);
         }
     }
 
     /// The first ray of a path, towards mirrors and glass; where the light has sheets, towards what they leave to photons.
-    fn emit(&mut self, light: usize, sampler: &mut Sampler) -> Option<Emission> {
+    fn emit(&mut self, sampler: &mut Sampler) -> Option<Emission> {
         self.claims = &[];
-        let Some(SheetsOfLight { pencil, regions }) = &self.sheets[light] else {
+        let light = self.source.light;
+        let Some(SheetsOfLight { pencil, regions }) = self.source.sheets else {
             return self.caustics.projection_maps[light].emit(&self.world.lights[light], sampler);
         };
         let (square, density, claims) = regions.sample(sampler.next_2d());
@@ -204,6 +218,7 @@ impl<'a> CausticTracer<'a> {
         }
         if self.claims.contains(&branch.signature.arrived(vertex.side)) {
             self.found.energy.stored += power(branch.flux);
+            self.found.energy.sheets += power(branch.flux);
             return;
         }
         if self.to_map {
@@ -349,6 +364,22 @@ mod tests {
         assert!(of_photons < 0.05 * all, "photons bring the rim of the mirror: {of_photons} of {all}");
         let left = &pass.counters.caustic_paths;
         assert!(*left < 16_384 / 3, "{left} paths");
+    }
+
+    /// A mirror that lies between the rays of the coarse lattice is found by the finer one: no photon has to bring the light of many.
+    #[test]
+    fn thin_mirrors_leave_no_bright_photons() {
+        let thin = [[-HALF, 0.0, 4.5 + TO_MIRROR], [0.0, 0.012, 0.0], [2.0 * HALF, 0.0, 0.0]];
+        let screen = "[[object]]\nname = \"screen\"\ntype = \"plane\"\nmaterial = \"grey\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n";
+        let world = testing::world(&[&quad("mirror", thin, "mirror"), screen, &lamp([0.0, 0.0, 4.5])].concat());
+        let plan = Plan::new(&world);
+        for iteration in 4..12 {
+            let input = PassInput::uncancelled(&world, &plan, 1, iteration);
+            let pass = caustic_photon_pass(&input).expect("never cancelled");
+            let all: f64 = flux_by_tag(&pass).values().sum();
+            let brightest = pass.photons.iter().map(|photon| power(photon.flux)).fold(0.0, f64::max);
+            assert!(brightest < 2e-3 * all, "a photon of {brightest} of {all} in iteration {iteration}");
+        }
     }
 
     /// Light that glass divides in the glass, with a mirror and a tinted pane behind it: every sheet of it holds the flux of its photons.

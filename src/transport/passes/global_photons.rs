@@ -16,10 +16,10 @@ pub fn global_photon_pass(input: &PassInput) -> Option<GlobalPhotons> {
         .into_par_iter()
         .map(|block| {
             let mut tracer = GlobalPhotonTracer::new(world, &plan.photon_emissions, Some(&plan.glossy_mis));
-            let paths = paths(&plan.global_paths[block.light]);
+            let paths = paths(&plan.global_paths[block.source]);
             let count = paths.end - paths.start;
             for index in block.paths.clone() {
-                tracer.trace(block.light, count, input.sampler(Stream::GlobalPhoton, block.light as u64, index));
+                tracer.trace(block.source, count, input.sampler(Stream::GlobalPhoton, block.source as u64, index));
             }
             (!input.cancel.is_cancelled()).then_some(tracer.stored)
         })
