@@ -53,6 +53,11 @@ impl Pencil {
             (Chart::Directions { .. }, Rays::Parallel(..)) => None,
         }
     }
+
+    /// The part of the rays that goes between three of them: through the triangle that the rays at these points of the square span.
+    pub(in crate::transport) fn part_between(&self, corners: [DVec2; 3]) -> f64 {
+        self.chart.triangle_area(corners)
+    }
 }
 
 #[cfg(test)]
