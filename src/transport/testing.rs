@@ -11,7 +11,7 @@ use scene_text::HEAD;
 #[path = "../../tests/shared/scene_text.rs"]
 mod scene_text;
 
-pub(super) use scene_text::{lamp, quad, sphere};
+pub(super) use scene_text::{lamp, object, quad, sphere};
 
 /// The world of a scene's text with the camera and the materials white, grey, black and mirror.
 pub(super) fn world(text: &str) -> World {

@@ -3,6 +3,7 @@ use super::landing::{self, Landing};
 use super::regions::Region;
 use super::smoothness::{self, Smoothness};
 use crate::geometry::Primitive;
+use crate::math::Rgb;
 use crate::transport::counters::Counters;
 use crate::transport::lights::Pencil;
 use crate::transport::photons::Signature;
@@ -266,13 +267,17 @@ impl Division<'_> {
     fn add_cell(&mut self, block: Block, sheet: &SheetOfBlock, corners: [usize; 4]) {
         let Some(landings) = all(corners.map(|k| sheet.landings[k].map(|at| &self.landings[at]))) else { return };
         let points = block.points();
-        let [_, size] = self.lattice.chart_rectangle(self.square, [points[corners[0]], points[corners[2]]]);
+        let places = corners.map(|k| self.lattice.chart_point(self.square, points[k]));
         let origin = self.lattice.world.view.origin;
-        let flux = |k: usize| landings[k].flux * (0.5 * size.x * size.y / 3.0) as f32;
+        // Not the area in the chart: near the poles of the chart straight lines in it are bent on the sphere, which would crowd the light.
+        let flux = |triangle: [usize; 3]| {
+            let part = self.lattice.pencil.part_between(triangle.map(|k| places[k]));
+            triangle.map(|k| landings[k].flux).into_iter().sum::<Rgb>() * (part / 3.0) as f32
+        };
+        let flux = [flux([0, 1, 2]), flux([0, 2, 3])];
         let primitive = &self.lattice.world.aggregate.primitives()[landings[0].primitive as usize];
         let corners =
             landings.map(|landing| CellCorner { position: (landing.position - origin).as_vec3(), wi: landing.wi });
-        let flux = [flux(0) + flux(1) + flux(2), flux(0) + flux(2) + flux(3)];
         let is_flat = matches!(primitive, Primitive::Quad(_) | Primitive::Plane(_));
         if let Some(cell) = SheetCell::new(corners, flux, landings[0].tag, is_flat) {
             self.found.cells.push((sheet.signature, cell));

@@ -35,6 +35,18 @@ impl Chart {
         }
     }
 
+    /// The area of the triangle between the places of three points of the square, over the area of the chart. The edges of a triangle of
+    /// directions are arcs of great circles: triangles side by side have neither gaps nor overlaps \[VanOosterom83\].
+    pub(super) fn triangle_area(&self, corners: [DVec2; 3]) -> f64 {
+        let [a, b, c] = corners.map(self.place_from_square());
+        let across = (b - a).cross(c - a);
+        let area = match self {
+            Self::Directions { .. } => 2.0 * a.dot(across).abs().atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a)),
+            Self::Disc(_) => 0.5 * across.length(),
+        };
+        area / (4.0 * PI)
+    }
+
     /// Where a place lies in the square; beyond it for a place in the plane beyond the square.
     pub(super) fn square_from_place(&self, place: Place) -> DVec2 {
         match self {
@@ -105,4 +117,30 @@ fn flat_place(crossing: DVec2) -> Place {
 #[inline]
 pub(super) fn crossing_at(place: Place) -> DVec2 {
     place.truncate() / (0.5 * flat_side())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transport::testing;
+
+    /// Over the poles of the octahedral map, too, where straight lines of the square are bent on the sphere.
+    #[test]
+    fn triangles_side_by_side_cover_the_chart() {
+        let beam = "[[light]]\nname = \"l\"\ntype = \"beam\"\ncenter = [0, 1, 0]\ndirection = [0, -1, 0.2]\nradius = 0.3\npower = [1, 1, 1]\n";
+        for light in [testing::lamp([0.0; 3]).as_str(), beam] {
+            let chart = Chart::new(&testing::world(light).lights[0]);
+            let side = 64;
+            let corner =
+                |k: u32, x: u32, y: u32| DVec2::new(f64::from(k % side + x), f64::from(k / side + y)) / f64::from(side);
+            let cell = |k: u32| {
+                let [a, b, c, d] = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| corner(k, x, y));
+                chart.triangle_area([a, b, c]) + chart.triangle_area([a, c, d])
+            };
+            let areas: Vec<f64> = (0..side * side).map(cell).collect();
+            assert!((areas.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{light}");
+            let even = areas.iter().filter(|area| (**area * f64::from(side * side) - 1.0).abs() < 0.01).count();
+            assert!(even > 3500, "the map keeps areas: {even} of 4096 cells");
+        }
+    }
 }

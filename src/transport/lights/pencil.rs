@@ -95,6 +95,11 @@ impl Pencil {
         };
         emission.map(|emission| Emission { flux: emission.flux * self.share, ..emission })
     }
+
+    /// The part of the rays that goes between three of them: through the triangle that the rays at these points of the square span.
+    pub(in crate::transport) fn part_between(&self, corners: [DVec2; 3]) -> f64 {
+        self.chart.triangle_area(corners)
+    }
 }
 
 /// The rays of a ball of light through one of its points: its intensity is the radiance times the area of its disc. Points of which the

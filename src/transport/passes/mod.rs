@@ -32,6 +32,9 @@ mod lobe_sample;
 mod pixel_footprint;
 mod visible_parts;
 
+#[cfg(test)]
+mod tests;
+
 pub use band::{Band, Contribution};
 pub use camera::{CameraBatch, FirstHit, camera_pass};
 pub use caustic_photons::{CausticPhotons, caustic_photon_pass};
