@@ -279,6 +279,11 @@ impl ProjectionMap {
         rows.any(|row| (first.x as usize..=last.x as usize).any(|column| self.is_marked[row * SIDE + column]))
     }
 
+    /// Number of cells in which the light may meet the surfaces.
+    pub(in crate::transport) fn aimed_cells(&self) -> u64 {
+        self.is_marked.iter().filter(|&&is_marked| is_marked).count() as u64
+    }
+
     /// Fraction of the chart in which the light meets the surfaces, 0 to 1.
     pub fn covered(&self) -> f64 {
         self.covered

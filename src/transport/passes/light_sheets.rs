@@ -78,8 +78,11 @@ fn divided_lattice(
     };
     let aimed: Vec<bool> = squares.iter().map(is_aimed).collect();
     let aimed_count = aimed.iter().filter(|&&aimed| aimed).count().max(1);
-    let everywhere = (EVERYWHERE * rays as f64 / aimed_count as f64).sqrt() as u32;
-    let everywhere = (everywhere.clamp(2, MOST_STEPS) + 1).next_power_of_two() / 2;
+    // A draft has no more rays than it has photons, so that its cost stays bounded.
+    let sure = if input.plan.is_draft() { 1.0 } else { EVERYWHERE };
+    let steps = (sure * rays as f64 / aimed_count as f64).sqrt() as u32;
+    let steps = (steps.clamp(2, MOST_STEPS) + 1).next_power_of_two() / 2;
+    let steps = if input.plan.is_draft() { steps } else { REFINEMENT * steps };
     let lattice = Lattice {
         world: input.world,
         camera: &input.plan.camera,
@@ -87,8 +90,8 @@ fn divided_lattice(
         pencil,
         side,
         shift,
-        steps: REFINEMENT * everywhere,
-        sure_block: 2 * REFINEMENT,
+        steps,
+        sure_block: steps.min(2 * REFINEMENT),
     };
     let divide = |(square, aimed): (UVec2, bool)| {
         let found = if aimed { lattice.divide(square) } else { lattice.undivided(square) };

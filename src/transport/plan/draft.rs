@@ -7,6 +7,9 @@ use std::sync::Arc;
 
 /// Photon paths of a draft for caustics: more would take longer than what they show is worth.
 const CAUSTIC_PATHS: f64 = 32_768.0;
+/// Least rays of a draft into each cell where a light meets mirrors and glass, for light sheets in place of photons. Measured while a control
+/// point moves: with fewer, sheets have few cells, and take the time of pixels.
+const RAYS_FOR_SHEETS: u64 = 16;
 /// Photon paths of a draft for interreflection: it is smooth, so a draft blurs it instead.
 const GLOBAL_PATHS: f64 = 8192.0;
 /// Photon paths for interreflection and pixel for which the radius of a draft is made.
@@ -40,10 +43,12 @@ impl Plan {
         let caustic_wider = wider(1.0, caustic_paths);
         let global_radius = DRAFT_RADIUS * wider(GLOBAL_PATHS_PER_PIXEL, global_paths);
         let radii = self.radii.draft(caustic_wider, global_radius);
-        let caustics = self.caustics.as_ref().map(|caustics| CausticPlan {
-            paths: fewer(&caustics.paths, caustic_paths),
-            gathered_iterations: f64::INFINITY,
-            ..caustics.clone()
+        let caustics = self.caustics.as_ref().map(|caustics| {
+            let paths = fewer(&caustics.paths, caustic_paths);
+            let rays_suffice =
+                |light: usize| paths[light] >= RAYS_FOR_SHEETS * caustics.projection_maps[light].aimed_cells();
+            let sheets = caustics.sheets.iter().enumerate().map(|(light, has)| *has && rays_suffice(light)).collect();
+            CausticPlan { paths, sheets, gathered_iterations: f64::INFINITY, ..caustics.clone() }
         });
         Self {
             camera,
