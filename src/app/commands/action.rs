@@ -11,6 +11,7 @@ pub(crate) enum Action {
     Save,
     SaveAs,
     Export,
+    ExportShown,
     ExportSurface,
     Quit,
     Undo,
@@ -84,6 +85,7 @@ const TABLE: &[Row] = &[
     (Action::Save, "Save", &[(CTRL, Key::S)]),
     (Action::SaveAs, "Save as…", &[(CTRL_SHIFT, Key::S)]),
     (Action::Export, "Export picture…", &[(CTRL, Key::E)]),
+    (Action::ExportShown, "Export picture as shown…", &[]),
     (Action::ExportSurface, "Export surface…", &[(CTRL_SHIFT, Key::E)]),
     (Action::Quit, "Quit", &[(CTRL, Key::Q)]),
     (Action::Undo, "Undo", &[(CTRL, Key::Z)]),
@@ -149,6 +151,7 @@ impl Action {
     /// What the action does, for its tooltip; empty where the label says it.
     pub(crate) fn tip(self) -> &'static str {
         match self {
+            Self::ExportShown => "A PNG as the screen shows the picture: with less noise, where it is smoothed",
             Self::SplitU | Self::SplitV | Self::SplitBoth => {
                 "Halves the shown patch exactly, and with it the whole strip of patches across, so that seams stay closed. \
                  The surface stays the same."
@@ -273,6 +276,7 @@ mod tests {
         let row = |wanted| Action::all().position(|action| action == wanted).unwrap();
         for (simple, variant) in [
             (Action::Save, Action::SaveAs),
+            (Action::Export, Action::ExportShown),
             (Action::Export, Action::ExportSurface),
             (Action::Undo, Action::Redo),
             (Action::SelectAll, Action::SelectNone),

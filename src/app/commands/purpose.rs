@@ -8,6 +8,8 @@ pub(crate) enum Purpose {
     OpenScene,
     SaveScene,
     ExportPicture,
+    /// Of the picture as the screen shows it, with less noise where the display filter is on.
+    ExportShown,
     ExportSurface,
     AddSurface,
     AddTexture,
@@ -20,6 +22,7 @@ impl Purpose {
             Self::OpenScene => "Open scene",
             Self::SaveScene => "Save scene",
             Self::ExportPicture => "Export picture",
+            Self::ExportShown => "Export picture as shown",
             Self::ExportSurface => "Export surface",
             Self::AddSurface => "Add patches",
             Self::AddTexture => "Add texture",
@@ -32,6 +35,7 @@ impl Purpose {
             Self::OpenScene => "open-scene",
             Self::SaveScene => "save-scene",
             Self::ExportPicture => "export-picture",
+            Self::ExportShown => "export-shown",
             Self::ExportSurface => "export-surface",
             Self::AddSurface => "add-surface",
             Self::AddTexture => "add-texture",
@@ -48,7 +52,7 @@ impl Purpose {
 
     /// Whether the file is written, not read.
     pub(crate) fn writes(self) -> bool {
-        matches!(self, Self::SaveScene | Self::ExportPicture | Self::ExportSurface)
+        matches!(self, Self::SaveScene | Self::ExportPicture | Self::ExportShown | Self::ExportSurface)
     }
 
     /// The allowed extensions, in lower case; the first is the default.
@@ -56,6 +60,7 @@ impl Purpose {
         match self {
             Self::OpenScene | Self::SaveScene => &["toml"],
             Self::ExportPicture => &["png", "exr"],
+            Self::ExportShown => &["png"],
             Self::ExportSurface => &["obj", "bpt"],
             Self::AddSurface => &["bpt"],
             Self::AddTexture => &["png", "jpg", "jpeg"],
@@ -66,7 +71,8 @@ impl Purpose {
     pub(crate) fn formats(self) -> &'static str {
         match self {
             Self::OpenScene | Self::SaveScene => ".toml (scene)",
-            Self::ExportPicture => ".png (as displayed) or .exr (linear, 32-bit float)",
+            Self::ExportPicture => ".png (tone-mapped) or .exr (linear, 32-bit float)",
+            Self::ExportShown => ".png (with the display filter, where it is on)",
             Self::ExportSurface => ".obj (mesh) or .bpt (control points)",
             Self::AddSurface => ".bpt (control points of bicubic patches)",
             Self::AddTexture => ".png or .jpg (image)",

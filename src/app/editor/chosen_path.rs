@@ -49,7 +49,7 @@ impl Editor {
         match purpose {
             Purpose::OpenScene => self.leave(ctx, Next::Open(path)),
             Purpose::SaveScene => self.save_to(ctx, path),
-            Purpose::ExportPicture => self.export_picture(path),
+            Purpose::ExportPicture | Purpose::ExportShown => self.export_picture(purpose, path),
             Purpose::ExportSurface => {
                 if let Some(surface) = surface_of(&self.document) {
                     self.export.write_surface(ctx, surface, path);
@@ -73,11 +73,11 @@ impl Editor {
         }
     }
 
-    fn export_picture(&mut self, path: PathBuf) {
+    fn export_picture(&mut self, purpose: Purpose, path: PathBuf) {
         if self.rendering.full_frame().is_none() {
             self.toasts.info("The picture is still a draft. It will be written after its first iteration.");
         }
-        self.export.request_picture(path);
+        self.export.request_picture(purpose, path);
     }
 
     /// Asks how to export the surface; warns in a scene without a Bezier object.

@@ -4,7 +4,7 @@ use crate::app::commands::Purpose;
 use crate::app::document::Document;
 use crate::engine::Frame;
 use crate::file::write_whole;
-use crate::film::{ToneMap, write_exr, write_png};
+use crate::film::{LinearImage, ToneMap, write_exr, write_png};
 use crate::scene::{Film, SurfaceExport, SurfaceFormat};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use egui::Context;
@@ -21,8 +21,8 @@ pub(crate) struct Exported {
 
 /// The exports in progress.
 pub(crate) struct Export {
-    /// The path of a requested picture, which waits for the first frame that is no draft.
-    waiting: Option<PathBuf>,
+    /// The purpose and the path of a requested picture, which waits for the first frame that is no draft.
+    waiting: Option<(Purpose, PathBuf)>,
     /// Quads along each side of a patch, in a mesh.
     pub(crate) steps: NonZeroUsize,
     // Each click sends at most one message.
@@ -36,9 +36,9 @@ impl Default for Export {
 }
 
 impl Export {
-    /// Writes the picture to `path` once a frame is no draft.
-    pub(crate) fn request_picture(&mut self, path: PathBuf) {
-        self.waiting = Some(path);
+    /// Writes the picture to `path` once a frame is no draft: as it is, or for [`Purpose::ExportShown`] as the screen shows it.
+    pub(crate) fn request_picture(&mut self, purpose: Purpose, path: PathBuf) {
+        self.waiting = Some((purpose, path));
     }
 
     /// Drops the requested picture, because the next frames show another scene.
@@ -60,10 +60,10 @@ impl Export {
     /// finished since the last call.
     pub(crate) fn poll(&mut self, ctx: &Context, frame: Option<&Arc<Frame>>, film: Film) -> Vec<Exported> {
         if let Some(frame) = frame
-            && let Some(path) = self.waiting.take()
+            && let Some((purpose, path)) = self.waiting.take()
         {
-            let frame = Arc::clone(frame);
-            self.spawn(ctx, Purpose::ExportPicture, path, move |path| write_picture(path, &frame, &film));
+            let image = Arc::clone(if purpose == Purpose::ExportShown { frame.shown() } else { &frame.image });
+            self.spawn(ctx, purpose, path, move |path| write_picture(path, &image, &film));
         }
         self.done.1.try_iter().collect()
     }
@@ -92,12 +92,12 @@ pub(crate) fn surface_of(document: &Document) -> Option<SurfaceExport> {
     selected.or_else(|| SurfaceExport::of(&scene.objects))
 }
 
-fn write_picture(path: &Path, frame: &Frame, film: &Film) -> Result<(), String> {
+fn write_picture(path: &Path, image: &LinearImage, film: &Film) -> Result<(), String> {
     let is_exr = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
     let written = if is_exr {
-        write_exr(path, &frame.image)
+        write_exr(path, image)
     } else {
-        write_png(path, &frame.image, &ToneMap::new(film.exposure, film.tone_curve))
+        write_png(path, image, &ToneMap::new(film.exposure, film.tone_curve))
     };
     written.map_err(|error| error.to_string())
 }

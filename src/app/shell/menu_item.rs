@@ -5,7 +5,8 @@ use egui::{Atom, Button, Checkbox, Response, RichText, Ui};
 
 /// An entry that performs an action.
 pub(super) fn item_ui(ui: &mut Ui, action: Action, label: &str, enabled: bool, commands: &mut Vec<AppCommand>) {
-    let button = Button::new(label).shortcut_text(action.shortcut(ui.ctx()));
+    let (button, shortcut) = (Button::new(label), action.shortcut(ui.ctx()));
+    let button = if shortcut.is_empty() { button } else { button.shortcut_text(shortcut) };
     let response = ui.add_enabled(enabled, button);
     if explained(response, action).clicked() {
         commands.push(AppCommand::Do(action));

@@ -17,6 +17,25 @@ fn a_picture_is_exported_after_its_first_iteration() {
 }
 
 #[test]
+fn a_picture_is_exported_with_less_noise_only_as_shown() {
+    let (mut ui, folder) = (open("cornell"), folder());
+    let mut with_preview = frame(1, false, 16).as_ref().clone();
+    let smooth = LinearImage { width: 16, height: 16, pixels: vec![Rgb::splat(0.5); 256] };
+    with_preview.preview = Some(Arc::new(smooth));
+    receive(&mut ui, Arc::new(with_preview));
+    let mut exported = |item: &str, name: &str| {
+        let path = folder.path().join(name);
+        answer_dialogs(&mut ui, Some(path.clone()));
+        choose_from_menu(&mut ui, &["File", item]);
+        wait_until(&mut ui, "the picture", |_| path.exists());
+        let image = image::open(&path).unwrap().into_rgb8();
+        image.pixels().all(|pixel| pixel == image.get_pixel(0, 0))
+    };
+    assert!(!exported("Export picture… Ctrl+E", "film.png"), "the picture as it is");
+    assert!(exported("Export picture as shown…", "shown.png"), "the preview");
+}
+
+#[test]
 fn a_failed_export_is_reported() {
     let (mut ui, folder) = (open("cornell"), folder());
     answer_dialogs(&mut ui, Some(folder.path().join("no such folder/picture.exr")));
