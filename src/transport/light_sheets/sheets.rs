@@ -17,9 +17,9 @@ pub struct LightSheets {
     tree: BoxTree,
 }
 
-/// What the lattice of one light leaves to photons.
+/// What the lattice of one light, or of one of its points, leaves to photons.
 pub(in crate::transport) struct SheetsOfLight {
-    /// The point of the lamp to which all paths of the iteration go.
+    /// The rays of the lattice, of which its photons are some, too.
     pub(in crate::transport) pencil: Pencil,
     /// Where photons have to go, and what they leave to the sheets.
     pub(in crate::transport) regions: Regions,

@@ -37,16 +37,22 @@ pub(super) struct Origin {
 /// Samples a point of a light, evenly over its area. Only area lights draw numbers.
 #[inline]
 pub(super) fn sample_origin(light: &Light, sampler: &mut Sampler) -> Origin {
+    origin_at(light, || sampler.next_2d())
+}
+
+/// The point of a light for a point of the unit square, which only area lights ask for: even over the light's area for even points.
+#[inline]
+pub(super) fn origin_at(light: &Light, square: impl FnOnce() -> DVec2) -> Origin {
     match light {
         Light::Point { position, intensity } => Origin { position: *position, normal: None, strength: *intensity },
         Light::Sphere { sphere, radiance } => {
-            let normal = octahedral::direction_from_square(sampler.next_2d());
+            let normal = octahedral::direction_from_square(square());
             let area = 4.0 * PI * sphere.radius * sphere.radius;
             let position = sphere.center + sphere.radius * normal;
             Origin { position, normal: Some(normal), strength: *radiance * area as f32 }
         }
         Light::Quad { quad, radiance } => {
-            let DVec2 { x, y } = sampler.next_2d();
+            let DVec2 { x, y } = square();
             Origin {
                 position: quad.position(x, y),
                 normal: Some(quad.normal()),
@@ -54,7 +60,7 @@ pub(super) fn sample_origin(light: &Light, sampler: &mut Sampler) -> Origin {
             }
         }
         Light::Parallel(rays) => Origin {
-            position: rays.point(warp::concentric_disc(sampler.next_2d())),
+            position: rays.point(warp::concentric_disc(square())),
             normal: Some(rays.direction),
             strength: rays.power(),
         },

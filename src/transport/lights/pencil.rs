@@ -47,7 +47,7 @@ impl Pencil {
                 let point = warp::ball_of_even_discs(sampler.next_2d(), sampler.next_1d());
                 through_ball(sphere.center + sphere.radius * point, *sphere, *radiance)
             }
-            _ => Rays::FromPoint(emission::sample_origin(light, sampler)),
+            Light::Point { .. } | Light::Quad { .. } => Rays::FromPoint(emission::sample_origin(light, sampler)),
         };
         Self { chart: Chart::new(light), rays, share: 1.0 / count as f32 }
     }
@@ -56,16 +56,11 @@ impl Pencil {
     pub(in crate::transport) fn middle(world: &World, light: usize) -> Self {
         let light = &world.lights[light];
         let rays = match light {
-            Light::Point { position, intensity } => {
-                Rays::FromPoint(Origin { position: *position, normal: None, strength: *intensity })
-            }
             Light::Parallel(rays) => Rays::Parallel(rays.direction, rays.irradiance),
             Light::Sphere { sphere, radiance } => through_ball(sphere.center, *sphere, *radiance),
-            Light::Quad { quad, radiance } => Rays::FromPoint(Origin {
-                position: quad.position(0.5, 0.5),
-                normal: Some(quad.normal()),
-                strength: *radiance * quad.area() as f32,
-            }),
+            Light::Point { .. } | Light::Quad { .. } => {
+                Rays::FromPoint(emission::origin_at(light, || DVec2::splat(0.5)))
+            }
         };
         Self { chart: Chart::new(light), rays, share: 1.0 }
     }

@@ -1,6 +1,6 @@
 //! The caustic photon pass: photons that only mirrors and glass have touched, from the light to the first surface that scatters them.
 //!
-//! Light sheets bring the light of point lamps and parallel rays where it is smooth; photons bring the rest.
+//! Light sheets bring the light of small lamps and suns where it is smooth; photons bring the rest.
 //!
 //! Where the camera sees that surface directly and the caustic is sharp, the photon is splatted to the film (light tracing). Density
 //! estimates serve caustics that are smooth, or seen in mirrors and through glass.
