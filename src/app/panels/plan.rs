@@ -5,7 +5,7 @@ use crate::app::theme;
 use crate::engine::{PlanItem, PlanSummary, Stats};
 use egui::Ui;
 
-/// The plan, one line per note, and how its light sheets do.
+/// The plan, one line per note, and how the caustics divide between light sheets and photons.
 pub(super) fn plan_ui(ui: &mut Ui, plan: &PlanSummary, stats: &Stats) {
     let palette = theme::palette(ui.visuals().dark_mode);
     for note in &plan.notes {

@@ -17,7 +17,7 @@ const REFINEMENT: u32 = 4;
 /// Most steps along a square that are traced everywhere.
 const MOST_STEPS: u32 = 64;
 
-/// Points of a lamp with an extent that have sheets in an iteration, each on a lattice of so much fewer rays. Measured: with one, a lens shows
+/// Points of a lamp with an extent that have sheets in an iteration; they share the rays. Measured: with one, a lens shows
 /// few points of a lamp in the first seconds; with eight, iterations take longer for no less error.
 const POINTS_OF_LAMP: u64 = 4;
 

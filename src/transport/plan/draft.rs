@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 /// Photon paths of a draft for caustics: more would take longer than what they show is worth.
 const CAUSTIC_PATHS: f64 = 32_768.0;
-/// Least rays of a draft into each cell where a light meets mirrors and glass, for light sheets in place of photons. Measured while a control
-/// point moves: with fewer, sheets have few cells, and take the time of pixels.
+/// Least rays of a draft into each cell where a light meets mirrors and glass, for light sheets in place of photons. With fewer, a draft has
+/// few cells of sheets, and as they take more time than photons, coarser pixels.
 const RAYS_FOR_SHEETS: u64 = 16;
 /// Photon paths of a draft for interreflection: it is smooth, so a draft blurs it instead.
 const GLOBAL_PATHS: f64 = 8192.0;
