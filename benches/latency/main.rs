@@ -28,6 +28,10 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// The allocator of the program.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The tables, of which arguments choose some.
 const TABLES: [&str; 3] = ["starts", "edits", "drags"];
 const SIDES: [u32; 2] = [512, 1024];

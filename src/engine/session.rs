@@ -5,7 +5,7 @@ use super::draft::Draft;
 use super::film_part::FilmPart;
 use super::film_sums::FilmSums;
 use super::frame::{Frame, PlanSummary, Stats};
-use super::iteration::iterate;
+use super::iteration::{Light, iterate, see, trace_light};
 use super::pass_meter::{PassMeter, Work};
 use crate::film::LinearImage;
 use crate::math::Rgb;
@@ -62,6 +62,8 @@ pub struct Session {
     part: FilmPart,
     /// The last draft with pixels over the whole film.
     draft: Option<Draft>,
+    /// The light of the last draft, and the thinning of its photons.
+    draft_light: Option<(u32, Light)>,
     /// Whether iterations add to `interreflection`.
     keeps_interreflection: bool,
     /// Whether drafts come with less noise in their interreflection, too.
@@ -92,6 +94,7 @@ impl Session {
             seed,
             part,
             draft: None,
+            draft_light: None,
             keeps_interreflection: false,
             smooths_drafts: false,
             interreflection: None,
@@ -219,31 +222,32 @@ impl Session {
         self.frame_of(generation, image, self.iterations(), self.stats())
     }
 
-    /// A quick picture of this size, of the chosen pixels only, if any; `None` when cancelled. The film does not change.
-    pub fn draft(&self, size: DraftSize, chosen: Option<Arc<[bool]>>, cancel: Cancel) -> Option<Draft> {
+    /// A quick picture of this size, of the chosen pixels only, if any; `None` when cancelled. The film does not change. Its light is that of
+    /// the draft before, if that had the same thinning.
+    pub fn draft(&mut self, size: DraftSize, chosen: Option<Arc<[bool]>>, cancel: Cancel) -> Option<Draft> {
         let start = Instant::now();
-        let whole = self.plan.draft(size);
+        let meter = PassMeter::default();
+        let Self { world, plan, seed, draft_light, .. } = self;
+        let guides = self.smooths_drafts;
+        let of_all_pixels = plan.draft(DraftSize { coarseness: 1, ..size });
+        let whole = plan.draft(size);
         let plan = match chosen {
             Some(chosen) => whole.of_pixels(chosen),
             None => whole,
         };
+        let input = |plan| PassInput { world, plan, seed: *seed, iteration: 1, guides, cancel };
+        if draft_light.as_ref().is_none_or(|(thinning, _)| *thinning != size.thinning) {
+            *draft_light = Some((size.thinning, trace_light(&input(&of_all_pixels), &meter)?));
+        }
+        let (_, light) = draft_light.as_ref()?;
         let (width, height) = (plan.camera.width, plan.camera.height);
-        let meter = PassMeter::default();
-        let input = PassInput {
-            world: &self.world,
-            plan: &plan,
-            seed: self.seed,
-            iteration: 1,
-            guides: self.smooths_drafts,
-            cancel,
-        };
-        let (image, smoothed, sharp, first_hits) = iterate(&input, &meter, |contribution| {
+        let (image, smoothed, sharp, first_hits) = see(&input(&plan), light, &meter, |contribution| {
             let Contribution { photons, samples, interreflection, first_hits, .. } = contribution;
             let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());
             let pixels: Vec<Rgb> = pixels.collect();
             let sharp = pixels.iter().zip(interreflection).map(|(all, smooth)| *all - *smooth).collect();
             let image = LinearImage::positive_part(width, height, pixels);
-            let smoothed = self.smooths_drafts.then(|| Arc::new(smoothed_draft(&image, contribution)));
+            let smoothed = guides.then(|| Arc::new(smoothed_draft(&image, contribution)));
             (image, smoothed, sharp, first_hits.clone())
         })?;
         let Work { counters, seconds } = meter.work();

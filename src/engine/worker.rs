@@ -8,7 +8,7 @@ use super::shared::Shared;
 use super::stand_in::StandIn;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, DraftSize};
+use crate::transport::Cancel;
 use crossbeam_channel::Receiver;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -165,14 +165,17 @@ impl Worker {
         let Some(preview) = before.map(|before| pool.install(|| before.preview(camera, draft))) else {
             return Some(session.frame_of_draft(generation, image, smoothed, stats));
         };
-        let spent = start.elapsed().as_secs_f64();
-        let coarseness = drafts.of_changes(pixels, preview.doubtful_fraction(), spent);
-        let finer = coarseness.and_then(|coarseness| {
-            let size = DraftSize { coarseness, ..size };
-            pool.install(|| session.draft(size, Some(preview.doubtful(coarseness)), Cancel::NEVER))
+        let finer = drafts.of_changes(preview.doubtful(), start.elapsed().as_secs_f64()).and_then(|size| {
+            pool.install(|| session.draft(size, Some(preview.doubtful_pixels(size.coarseness)), Cancel::NEVER))
         });
-        let preview = finer.map_or_else(|| preview.clone(), |finer| pool.install(|| preview.refined(&finer)));
-        let image = preview.image.clone();
+        if let Some(finer) = &finer {
+            drafts.changes_took(finer, preview.doubtful());
+        }
+        let shown = match &finer {
+            Some(finer) => finer,
+            None => session.whole_draft(size)?,
+        };
+        let image = pool.install(|| preview.with_draft(shown)).into();
         self.preview = Some(preview);
         Some(session.frame_of_draft(generation, image, None, stats))
     }
@@ -194,23 +197,22 @@ impl Worker {
         let (generation, shared) = (*generation, &self.shared);
         let outdated = move || shared.is_outdated(generation);
         let cancel = Cancel::when(&outdated);
-        let pixels = session.camera().pixel_count();
         let next = match &self.preview {
-            Some(preview) => self.drafts.next_of_changes(pixels, preview.doubtful_fraction()),
+            Some(preview) => self.drafts.next_of_changes(preview.doubtful()),
             None => self.drafts.next(),
         };
-        if let Some(coarseness) = next {
+        if let Some(size) = next {
             // Finer drafts bridge the time that the first iteration takes.
             let start = Instant::now();
-            let thinning = if coarseness > 1 { self.drafts.thinning() } else { 1 };
-            let size = DraftSize { coarseness, thinning };
-            let doubtful = self.preview.as_ref().map(|preview| preview.doubtful(coarseness));
+            let doubtful = self.preview.as_ref().map(|preview| preview.doubtful_pixels(size.coarseness));
             let draft = self.pool.install(|| session.draft(size, doubtful, cancel));
-            self.drafts.next_took(coarseness, start.elapsed().as_secs_f64());
+            self.drafts.next_took(size, start.elapsed().as_secs_f64());
             if let Some(draft) = draft {
-                self.preview = self.preview.as_ref().map(|preview| preview.refined(&draft));
                 let (image, smoothed) = match &self.preview {
-                    Some(preview) => (preview.image.clone(), None),
+                    Some(preview) => {
+                        self.drafts.changes_took(&draft, preview.doubtful());
+                        (self.pool.install(|| preview.with_draft(&draft)).into(), None)
+                    }
                     None => (draft.image, draft.smoothed),
                 };
                 self.shared.publish(session.frame_of_draft(generation, image, smoothed, draft.stats));
@@ -233,7 +235,8 @@ impl Worker {
             self.smoothed =
                 self.smooth.then(|| self.pool.install(|| session.smoothed(&frame.image))).flatten().map(Arc::new);
             let image = self.smoothed.as_ref().unwrap_or(&frame.image);
-            let blended = self.preview.as_ref().and_then(|preview| preview.with(image, weight)).map(Arc::new);
+            let blended =
+                self.preview.as_ref().and_then(|preview| preview.with_iterations(image, weight)).map(Arc::new);
             let smoothed = self.smoothed.is_some();
             let preview = blended.or_else(|| self.smoothed.clone());
             self.shared.publish(Frame { preview, smoothed, ..frame });

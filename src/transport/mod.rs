@@ -55,5 +55,7 @@ pub use passes::{
     SeenSurface, camera_pass, caustic_photon_pass, gather, global_photon_pass, lobe_samples,
 };
 pub use photons::{GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query, Splat};
-pub use plan::{CausticPlan, Component, DraftSize, MeasuredPlan, Plan, PlanItem, PlanNote, Radii, UnseenLight};
+pub use plan::{
+    CausticPlan, Component, DraftSize, MeasuredPlan, Plan, PlanItem, PlanNote, Radii, SheetLattice, UnseenLight,
+};
 pub use points::{Clearance, Facet, Fresnel, GlossyMis, VisiblePoint, fresnel};

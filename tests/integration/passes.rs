@@ -186,7 +186,7 @@ fn a_cancelled_iteration_leaves_the_film_unchanged() {
 
 #[test]
 fn a_draft_leaves_the_film_unchanged_and_resembles_the_picture() {
-    let session = session(&mixed(), 32);
+    let mut session = session(&mixed(), 32);
     let before = session.film().clone();
     let draft = session.draft(DraftSize { coarseness: 2, thinning: 4 }, None, Cancel::NEVER).expect("never cancelled");
     assert_eq!(*session.film(), before);
@@ -200,7 +200,7 @@ fn a_draft_leaves_the_film_unchanged_and_resembles_the_picture() {
 fn a_draft_of_some_pixels_has_their_direct_light_and_leaves_out_the_others() {
     let room = "[[object]]\nname = \"room\"\ntype = \"sphere\"\ncenter = [0,0,0]\nradius = 5\nmaterial = \"grey\"
         [[light]]\nname = \"l\"\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = [1, 2, 3]\n";
-    let session = session(&format!("{HEAD}{room}"), 0);
+    let mut session = session(&format!("{HEAD}{room}"), 0);
     let whole = session.draft(DraftSize::FULL, None, Cancel::NEVER).expect("never cancelled");
     let chosen: Arc<[bool]> = (0..whole.sharp.len()).map(|pixel| pixel % 7 < 3).collect();
     let some = session.draft(DraftSize::FULL, Some(chosen.clone()), Cancel::NEVER).expect("never cancelled");

@@ -1,6 +1,6 @@
 //! How the light has changed between two drafts.
 
-use super::grid::{Enlarged, around};
+use super::grid::{Enlarged, around, filled};
 use super::image::Draft;
 use crate::film::LinearImage;
 use crate::math::Rgb;
@@ -13,6 +13,8 @@ const SAME_DEPTH: f32 = 1e-4;
 /// Spread, around a pixel, of the change of light that has sharp edges, over all light: up to the first value the change counts as smooth,
 /// from the second on an edge has moved there. Interreflection changes smoothly everywhere.
 const SPREADS: [f32; 2] = [0.05, 0.3];
+/// Trust from which on it counts as 1, so that a pixel of the picture before needs no pixel of a draft.
+const FULL_TRUST: f32 = 0.95;
 /// Changes outside of these limits count as edges: the picture before lacks the details of what was dark or far too bright.
 const CHANGES: [f32; 2] = [0.25, 4.0];
 
@@ -35,6 +37,7 @@ struct Cell {
 /// A pixel of a picture before an edit, as it would be after it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Substitute {
+    /// Linear radiance, at least 0.
     pub(super) radiance: Rgb,
     /// How far the change is smooth, from 0 to 1.
     pub(super) trust: f32,
@@ -59,23 +62,21 @@ impl Change {
         Self { size, cells, floor }
     }
 
-    /// The pixels of an image before the change as they are after it, row by row.
-    pub(super) fn applied<'a>(&'a self, image: &'a LinearImage) -> impl Fn(u32) -> Vec<Substitute> + 'a {
+    /// The pixels of an image before the change as they are after it.
+    pub(super) fn applied(&self, image: &LinearImage) -> Vec<Substitute> {
         let size = [image.width, image.height];
-        let cells = Enlarged::new(&self.cells, self.size, size, |a: Cell, b, t| Cell {
+        let cells = Enlarged::new(&self.cells, self.size, size, |a: Cell, b: Cell, t| Cell {
             ratio: a.ratio.lerp(b.ratio, t),
             trust: a.trust + t * (b.trust - a.trust),
         });
-        move |y| {
-            let width = image.width as usize;
-            let pixels = &image.pixels[y as usize * width..][..width];
-            let apply = |(Cell { ratio, trust }, radiance): (Cell, &Rgb)| Substitute {
-                radiance: (*radiance + self.floor) * ratio - self.floor,
-                trust,
+        filled(size, |y| {
+            let pixels = &image.pixels[y as usize * image.width as usize..];
+            cells.row(y).zip(pixels).map(|(Cell { ratio, trust }, radiance)| Substitute {
+                radiance: ((*radiance + self.floor) * ratio - self.floor).max(Rgb::ZERO),
+                trust: if trust >= FULL_TRUST { 1.0 } else { trust },
                 squared_change: (ratio - 1.0).length_squared() / 3.0,
-            };
-            cells.row(y).zip(pixels).map(apply).collect()
-        }
+            })
+        })
     }
 }
 
@@ -123,7 +124,7 @@ mod tests {
     /// A pixel of an image of this radiance as large as the drafts, after the change.
     fn applied(change: &Change, radiance: Rgb, [x, y]: [u32; 2]) -> Substitute {
         let image = LinearImage { width: SIDE, height: SIDE, pixels: vec![radiance; (SIDE * SIDE) as usize] };
-        change.applied(&image)(y)[x as usize]
+        change.applied(&image)[(y * SIDE + x) as usize]
     }
 
     #[test]

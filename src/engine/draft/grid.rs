@@ -2,6 +2,7 @@
 
 use crate::film::LinearImage;
 use crate::math::Rgb;
+use rayon::prelude::*;
 
 /// The four pixels between whose middles a position lies, and the weights of the second column and row.
 #[derive(Clone, Copy, Debug)]
@@ -52,19 +53,19 @@ pub(super) fn sample(image: &LinearImage, x: f32, y: f32) -> Rgb {
 }
 
 /// Enlarges a grid of values row by row: bilinear means between the middles of its cells.
-pub(super) struct Enlarged<'a, T> {
+pub(super) struct Enlarged<'a, T, F> {
     values: &'a [T],
     size: [u32; 2],
     /// For each column of the enlarged grid, the first of the two columns between whose middles it lies, and the weight of the second.
     columns: Vec<(usize, f32)>,
     height: u32,
-    mix: fn(T, T, f32) -> T,
+    mix: F,
 }
 
-impl<'a, T: Copy> Enlarged<'a, T> {
+impl<'a, T: Copy, F: Fn(T, T, f32) -> T> Enlarged<'a, T, F> {
     /// The values of a grid of this width and height for a grid of the width and height `to`; `mix` returns the mean of two values, given
     /// the weight of the second.
-    pub(super) fn new(values: &'a [T], size: [u32; 2], to: [u32; 2], mix: fn(T, T, f32) -> T) -> Self {
+    pub(super) fn new(values: &'a [T], size: [u32; 2], to: [u32; 2], mix: F) -> Self {
         let column = |x: u32| {
             let (first, _, weight) = neighbours(middle(x, to[0], size[0]), size[0]);
             (first, weight)
@@ -87,6 +88,20 @@ impl<'a, T: Copy> Enlarged<'a, T> {
 #[inline]
 pub(super) fn middle(k: u32, count: u32, to: u32) -> f32 {
     (k as f32 + 0.5) * to as f32 / count as f32
+}
+
+/// The values of a grid of this width and height, of which `row` returns those of one row.
+pub(super) fn filled<T: Copy + Default + Send, I: Iterator<Item = T>>(
+    [width, height]: [u32; 2],
+    row: impl Fn(u32) -> I + Sync,
+) -> Vec<T> {
+    let mut values = vec![T::default(); width as usize * height as usize];
+    values.par_chunks_mut(width as usize).zip(0..height).for_each(|(values, y)| {
+        for (value, new) in values.iter_mut().zip(row(y)) {
+            *value = new;
+        }
+    });
+    values
 }
 
 /// The indices of a pixel and its neighbours in an image of this width and height.

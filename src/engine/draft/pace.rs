@@ -21,10 +21,15 @@ const THINNEST: u32 = 16;
 /// Factor between the coarseness that would take the wanted time and the present one from which on that changes: 1.7 times the time. A draft
 /// of the scene before an edit serves all edits for as long as the coarseness stays.
 const INERTIA: f64 = 1.3;
-/// Time of pixels that an edit has changed over that of the same number of others: the edited object is often the dearest.
-const CHANGED: f64 = 1.3;
+/// Time for each pixel that an edit has changed over that of the same number of all pixels, before one was timed: the edited object is often
+/// the dearest, but finer pixels share more of their work.
+const CHANGED: f64 = 0.5;
+/// Least part of the time of the first picture for a draft of what has changed: the picture comes later on a slow machine, but it shows more.
+const LEAST_FOR_CHANGES: f64 = 0.25;
 /// Coarseness of a finer draft over that of the draft before, at most: otherwise it would show little more.
 const FINER: f64 = 0.75;
+/// The same for a draft that bridges the wait for all pixels, which it makes longer.
+const MUCH_FINER: f64 = 0.4;
 /// Time of a finer draft of what an edit has changed, seconds, before the one with all pixels: it bridges the time that this takes on a slow
 /// or busy machine.
 const BRIDGE_SECONDS: f64 = 0.08;
@@ -44,15 +49,17 @@ pub(in crate::engine) struct DraftPace {
     size: DraftSize,
     /// Time of a draft for its photons, and for each pixel, seconds; `None` before any was timed.
     times: Option<[f64; 2]>,
-    /// Coarseness of the present scene's last draft.
-    last: u32,
-    /// Coarseness of the present scene's next draft; 0 when iterations are due.
-    next: u32,
+    /// Time of a draft of what an edit has changed, for each pixel of it, seconds; `None` before any was timed.
+    changed: Option<f64>,
+    /// The present scene's last draft.
+    last: DraftSize,
+    /// The present scene's next draft of the whole film; `None` when iterations are due.
+    next: Option<DraftSize>,
 }
 
 impl Default for DraftPace {
     fn default() -> Self {
-        Self { size: FIRST, times: None, last: 0, next: 0 }
+        Self { size: FIRST, times: None, changed: None, last: DraftSize::FULL, next: None }
     }
 }
 
@@ -70,11 +77,6 @@ impl DraftPace {
         self.size
     }
 
-    /// The thinning of drafts that have not all pixels.
-    pub(in crate::engine) fn thinning(&self) -> u32 {
-        self.size.thinning
-    }
-
     /// Takes the time of the first draft into account.
     pub(in crate::engine) fn first_took(&mut self, draft: &Draft) {
         let passes = draft.stats.passes;
@@ -88,48 +90,63 @@ impl DraftPace {
         } else if wanted < 0.4 * f64::from(self.size.thinning) && self.size.thinning > 1 {
             (self.size.thinning, self.times) = (self.size.thinning / 2, Some([2.0 * photons, pixel]));
         }
-        self.next_took(draft.size.coarseness, draft.stats.seconds);
+        self.next_took(draft.size, draft.stats.seconds);
     }
 
-    /// The coarseness of a draft of the changed part of a film of `pixels` pixels that may follow the first draft within the time of the
+    /// The size of a draft of what an edit has changed, `changed` pixels of the film, that may follow the first draft within the time of the
     /// first picture, of which `seconds` have passed; `None` where it would not be much finer.
-    pub(in crate::engine) fn of_changes(&self, pixels: usize, changed: f64, seconds: f64) -> Option<u32> {
-        (changed > 0.0).then(|| self.finer_within(PICTURE_SECONDS - seconds, pixels, changed, self.size.coarseness))?
+    pub(in crate::engine) fn of_changes(&self, changed: usize, seconds: f64) -> Option<DraftSize> {
+        self.finer_within((PICTURE_SECONDS - seconds).max(LEAST_FOR_CHANGES * PICTURE_SECONDS), changed, FINER)
     }
 
-    /// The coarseness of a draft of the changed part of a film that takes this time; `None` where it would not be much finer than `before`.
-    fn finer_within(&self, seconds: f64, pixels: usize, changed: f64, before: u32) -> Option<u32> {
-        let [photons, pixel] = self.times?;
-        let time = CHANGED * changed * pixels as f64 * pixel;
-        let wanted = (time / (seconds - photons).max(0.0)).sqrt().ceil();
-        (wanted <= FINER * f64::from(before)).then(|| wanted.max(1.0) as u32)
+    /// The size of a draft of `changed` pixels of the film that takes this time with the photons of the first draft; `None` where it would not
+    /// have at most `finer` times the coarseness of the last draft.
+    fn finer_within(&self, seconds: f64, changed: usize, finer: f64) -> Option<DraftSize> {
+        let pixel = self.changed.or_else(|| self.times.map(|[_, pixel]| CHANGED * pixel))?;
+        let wanted = (changed as f64 * pixel / seconds).sqrt().ceil().max(1.0);
+        (changed > 0 && wanted <= finer * f64::from(self.last.coarseness))
+            .then_some(DraftSize { coarseness: wanted as u32, ..self.size })
     }
 
-    /// The coarseness of the present scene's next draft; `None` when iterations are due.
-    pub(in crate::engine) fn next(&self) -> Option<u32> {
-        (self.next > 0).then_some(self.next)
+    /// The present scene's next draft of the whole film; `None` when iterations are due.
+    pub(in crate::engine) fn next(&self) -> Option<DraftSize> {
+        self.next
     }
 
-    /// [`Self::next`] for a draft of the changed part of a film of `pixels` pixels, where a picture before the edit stands in for the rest.
-    pub(in crate::engine) fn next_of_changes(&self, pixels: usize, changed: f64) -> Option<u32> {
-        self.next()?;
-        Some(self.finer_within(BRIDGE_SECONDS, pixels, changed, self.last).unwrap_or(1))
+    /// The present scene's next draft of `changed` pixels of the film, where a picture before the edit stands in for the rest; `None` when
+    /// iterations are due.
+    pub(in crate::engine) fn next_of_changes(&self, changed: usize) -> Option<DraftSize> {
+        let bridge = self.finer_within(BRIDGE_SECONDS, changed, MUCH_FINER);
+        // With the few photons of the first draft all pixels would show little more.
+        let next = bridge.filter(|size| size.coarseness > 1).unwrap_or(DraftSize::FULL);
+        (changed > 0 && self.next.is_some()).then_some(next)
     }
 
-    /// Takes the time of a draft of this coarseness, seconds, into account.
-    pub(in crate::engine) fn next_took(&mut self, coarseness: u32, seconds: f64) {
-        (self.last, self.next) = (coarseness, finer(coarseness, seconds));
+    /// Takes the time of a draft of `changed` pixels of the film into account.
+    pub(in crate::engine) fn changes_took(&mut self, draft: &Draft, changed: usize) {
+        let coarseness = f64::from(draft.size.coarseness);
+        let passes = draft.stats.passes;
+        let now = (passes.camera + passes.gather) * coarseness * coarseness / changed.max(1) as f64;
+        self.changed = Some(self.changed.map_or(now, |before| 0.5 * (before + now)));
+        self.next_took(draft.size, draft.stats.seconds);
+    }
+
+    /// Takes the time of a draft of this size, seconds, into account.
+    pub(in crate::engine) fn next_took(&mut self, size: DraftSize, seconds: f64) {
+        (self.last, self.next) = (size, next(size, seconds));
     }
 }
 
-/// The coarseness of the draft after one that took so long; 0 where iterations are due.
-fn finer(coarseness: u32, seconds: f64) -> u32 {
-    let all_pixels = ALL_PIXELS_TIME * seconds * f64::from(coarseness).powi(2);
-    match coarseness {
-        0 | 1 => 0,
+/// The draft of the whole film after one that took so long; `None` where iterations are due.
+fn next(size: DraftSize, seconds: f64) -> Option<DraftSize> {
+    let all_pixels = ALL_PIXELS_TIME * seconds * f64::from(size.coarseness).powi(2);
+    match size {
+        DraftSize::FULL => None,
         // A draft of half the coarseness has four times the pixels.
-        _ if all_pixels > LONGEST_WAIT && 4.0 * seconds <= LONGEST_DRAFT_SECONDS => coarseness / 2,
-        _ => 1,
+        DraftSize { coarseness: 2.., .. } if all_pixels > LONGEST_WAIT && 4.0 * seconds <= LONGEST_DRAFT_SECONDS => {
+            Some(DraftSize { coarseness: size.coarseness / 2, ..size })
+        }
+        _ => Some(DraftSize::FULL),
     }
 }
 
@@ -170,36 +187,52 @@ mod tests {
     #[test]
     fn a_small_change_is_drafted_finely_within_the_same_time() {
         let (pace, draft) = settled(true);
-        let spent = draft.stats.seconds;
+        let (spent, few) = (draft.stats.seconds, FILM / 20);
         assert!(spent < 0.8 * PICTURE_SECONDS, "{spent}");
-        let finer = pace.of_changes(FILM, 0.05, spent).expect("there is time left");
-        assert!(2 * finer <= draft.size.coarseness, "{finer}");
-        assert_eq!(pace.of_changes(FILM, 1.0, spent), None, "too much has changed");
-        assert_eq!(pace.of_changes(FILM, 0.05, PICTURE_SECONDS), None, "no time is left");
-        assert_eq!(pace.of_changes(FILM, 0.0, spent), None, "nothing has changed");
+        let finer = pace.of_changes(few, spent).expect("there is time left");
+        assert!(2 * finer.coarseness <= draft.size.coarseness && finer.thinning == draft.size.thinning, "{finer:?}");
+        assert_eq!(pace.of_changes(50 * FILM, spent), None, "too much has changed");
+        assert!(
+            pace.of_changes(few, PICTURE_SECONDS).expect("there is always some time").coarseness >= finer.coarseness
+        );
+        assert_eq!(pace.of_changes(0, spent), None, "nothing has changed");
     }
 
     #[test]
-    fn a_large_change_is_drafted_step_by_step_and_a_small_one_at_once() {
-        let (mut pace, draft) = settled(true);
-        assert_eq!(pace.next_of_changes(FILM, 0.05), Some(1));
-        let bridge = pace.next_of_changes(FILM, 1.0).expect("all pixels are missing");
-        assert!(1 < bridge && bridge < draft.size.coarseness, "{bridge}");
+    fn the_time_of_what_has_changed_is_measured() {
+        let (mut pace, first) = settled(true);
+        let few = FILM / 20;
+        let before = pace.of_changes(few, 0.0).unwrap();
+        let mut dear = draft(before, 20.0);
+        for _ in 0..8 {
+            pace.first_took(&first);
+            pace.changes_took(&dear, few);
+            dear = draft(pace.of_changes(few, 0.0).unwrap_or(before), 20.0);
+        }
+        pace.first_took(&first);
+        let after = pace.of_changes(few, 0.0).map_or(first.size.coarseness, |size| size.coarseness);
+        assert!(after >= 2 * before.coarseness, "{before:?} {after}");
+    }
+
+    #[test]
+    fn changes_are_drafted_step_by_step_until_they_have_all_pixels() {
+        let (mut pace, first) = settled(true);
+        assert_eq!(pace.next_of_changes(FILM / 20), Some(DraftSize::FULL), "few pixels take no time");
+        let bridge = pace.next_of_changes(3 * FILM / 2).expect("pixels are missing");
+        assert!(1 < bridge.coarseness && bridge.coarseness < first.size.coarseness, "{bridge:?}");
         pace.next_took(bridge, BRIDGE_SECONDS);
-        assert_eq!(pace.next_of_changes(FILM, 1.0), Some(1));
-        pace.next_took(1, 0.3);
-        assert_eq!(pace.next_of_changes(FILM, 1.0), None, "iterations follow");
+        assert_eq!(pace.next_of_changes(3 * FILM / 2), Some(DraftSize::FULL), "another one would show little more");
+        assert_eq!(pace.next_of_changes(0), None, "nothing has changed");
+        pace.next_took(DraftSize::FULL, 0.3);
+        assert_eq!(pace.next_of_changes(FILM), None, "iterations follow");
     }
 
     #[test]
     fn finer_drafts_end_with_all_pixels() {
-        let mut pace = DraftPace::default();
+        let size = |coarseness| DraftSize { coarseness, thinning: 4 };
         // All pixels would take 0.77 s.
-        pace.next_took(16, 0.01);
-        assert_eq!(pace.next(), Some(8), "a finer draft comes before all pixels");
-        pace.next_took(8, 0.04);
-        assert_eq!(pace.next(), Some(1), "another one would take too long");
-        pace.next_took(1, 0.5);
-        assert_eq!(pace.next(), None, "iterations follow the draft with all pixels");
+        assert_eq!(next(size(16), 0.01), Some(size(8)), "a finer draft comes before all pixels");
+        assert_eq!(next(size(8), 0.04), Some(DraftSize::FULL), "another one would take too long");
+        assert_eq!(next(DraftSize::FULL, 0.5), None, "iterations follow the draft with all pixels");
     }
 }

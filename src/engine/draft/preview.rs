@@ -1,13 +1,12 @@
 //! A picture for the screen: the draft of a scene, and the picture before the edit where that stands in for it.
 
 use super::change::{Change, Substitute};
-use super::grid::{Enlarged, sample};
+use super::grid::{Enlarged, filled, sample};
 use super::image::Draft;
 use super::reprojection::Reprojection;
 use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::world::Camera;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Iterations, as full ones, after which the new picture stands for itself.
@@ -15,8 +14,6 @@ const FADING_WEIGHT: f64 = 16.0;
 /// Squared relative change from which on a pixel of the picture before is worth at most one full iteration: a draft of few photons knows a
 /// change roughly. Without this limit a picture from before a light was moved was still visible after a second.
 const CHANGE_NOISE: f32 = 0.02;
-/// Trust from which on a pixel of the picture before needs no pixel of a draft.
-const FULL_TRUST: f32 = 0.95;
 
 /// The picture before an edit, with a draft of its scene.
 pub(in crate::engine) struct Before<'a> {
@@ -28,43 +25,43 @@ pub(in crate::engine) struct Before<'a> {
     pub(in crate::engine) draft: &'a Draft,
 }
 
-/// A picture for the screen that the picture before an edit stands in for.
-#[derive(Clone, Debug)]
+/// The picture before an edit, changed as a draft says, which stands in for what the edit has hardly changed.
+#[derive(Debug)]
 pub(in crate::engine) struct Preview {
-    pub(in crate::engine) image: Arc<LinearImage>,
-    /// The pixels of the picture before the edit, changed as the draft says.
-    stand_in: Arc<[Substitute]>,
+    size: [u32; 2],
+    pixels: Vec<Substitute>,
     /// The iterations in the picture before the edit.
     weight: f64,
 }
 
 impl Before<'_> {
-    /// The picture after the edit for a camera with the film's grid, of which there is a draft of the same size as that of the picture
-    /// before.
+    /// The preview for a camera with the film's grid, of which there is a draft of the same size as that of the picture before.
     pub(in crate::engine) fn preview(&self, camera: Camera, after: &Draft) -> Preview {
         let (own, before, old) = (self.camera, self.draft, self.image);
-        let stand_in = if own == camera {
-            composed(old, Change::between(before, after).applied(old))
+        let size = [old.width, old.height];
+        let pixels = if own == camera {
+            Change::between(before, after).applied(old)
         } else {
             let reprojection = Reprojection::new([own, camera], [before, after]);
             let pixel = |x: u32, y: u32| {
                 let then = reprojection.before(x as f32 + 0.5, y as f32 + 0.5);
                 then.map_or(Substitute::default(), |[x, y]| Substitute::unchanged(sample(old, x, y)))
             };
-            composed(old, |y| (0..old.width).map(|x| pixel(x, y)).collect())
+            let pixel = &pixel;
+            filled(size, |y| (0..old.width).map(move |x| pixel(x, y)))
         };
-        Preview { image: Arc::new(mixed(old, &stand_in, after)), stand_in: stand_in.into(), weight: self.weight }
+        Preview { size, pixels, weight: self.weight }
     }
 }
 
 impl Preview {
     /// The pixels of a draft of this coarseness that the preview lacks.
-    pub(in crate::engine) fn doubtful(&self, coarseness: u32) -> Arc<[bool]> {
-        let (width, height) = (self.image.width.div_ceil(coarseness), self.image.height.div_ceil(coarseness));
+    pub(in crate::engine) fn doubtful_pixels(&self, coarseness: u32) -> Arc<[bool]> {
+        let [width, height] = self.size.map(|side| side.div_ceil(coarseness));
         let mut doubtful = vec![false; width as usize * height as usize];
-        let doubts = self.stand_in.iter().zip(0..).filter(|(pixel, _)| pixel.trust < FULL_TRUST);
+        let doubts = self.pixels.iter().zip(0..).filter(|(pixel, _)| pixel.trust < 1.0);
         for (_, index) in doubts {
-            let (x, y) = (index % self.image.width, index / self.image.width);
+            let (x, y) = (index % self.size[0], index / self.size[0]);
             // The pixels of the draft between whose middles the pixel lies, if the draft is coarse.
             let reach = |at: u32, count: u32| {
                 let (from, to) = (at.saturating_sub(coarseness / 2), at + coarseness / 2);
@@ -79,49 +76,37 @@ impl Preview {
         doubtful.into()
     }
 
-    /// The fraction of the pixels that the preview lacks.
-    pub(in crate::engine) fn doubtful_fraction(&self) -> f64 {
-        let doubtful = self.stand_in.iter().filter(|pixel| pixel.trust < FULL_TRUST).count();
-        doubtful as f64 / self.stand_in.len() as f64
+    /// The number of pixels of the film that the preview lacks.
+    pub(in crate::engine) fn doubtful(&self) -> usize {
+        self.pixels.iter().filter(|pixel| pixel.trust < 1.0).count()
     }
 
-    /// The picture with the doubtful pixels of a finer draft.
-    pub(in crate::engine) fn refined(&self, draft: &Draft) -> Self {
-        Self { image: Arc::new(mixed(&self.image, &self.stand_in, draft)), ..self.clone() }
+    /// The picture with the doubtful pixels of a draft of the scene after the edit.
+    pub(in crate::engine) fn with_draft(&self, draft: &Draft) -> LinearImage {
+        let drafted = Enlarged::new(&draft.shown().pixels, draft.pixel_size(), self.size, Rgb::lerp);
+        let [width, height] = self.size;
+        let pixels = filled(self.size, |y| {
+            let row = &self.pixels[(y * width) as usize..];
+            drafted.row(y).zip(row).map(|(drafted, old)| drafted.lerp(old.radiance, old.trust))
+        });
+        LinearImage { width, height, pixels }
     }
 
     /// The picture together with that of the scene after the edit after iterations of this weight; `None` once that stands for itself.
-    pub(in crate::engine) fn with(&self, image: &LinearImage, weight: f64) -> Option<LinearImage> {
+    pub(in crate::engine) fn with_iterations(&self, image: &LinearImage, weight: f64) -> Option<LinearImage> {
         let fading = 1.0 - weight / FADING_WEIGHT;
         if fading <= 0.0 {
             return None;
         }
         let (fading, own, weight) = (fading as f32, self.weight as f32, weight as f32);
-        let pixels = image.pixels.iter().zip(self.stand_in.iter()).map(|(new, old)| {
+        let pixels = image.pixels.iter().zip(&self.pixels).map(|(new, old)| {
             // The iterations that the old pixel is worth: the change adds to its error, in proportion to itself.
             let worth = 1.0 / (1.0 / own + old.squared_change / CHANGE_NOISE);
-            new.lerp(old.radiance.max(Rgb::ZERO), old.trust * fading * worth / (worth + weight))
+            new.lerp(old.radiance, old.trust * fading * worth / (worth + weight))
         });
         let pixels = pixels.collect();
         Some(LinearImage { pixels, ..*image })
     }
-}
-
-/// A picture of the size of `film`: the picture that stands in where it is trusted, the draft elsewhere.
-fn mixed(film: &LinearImage, stand_in: &[Substitute], draft: &Draft) -> LinearImage {
-    let size = [film.width, film.height];
-    let drafted = Enlarged::new(&draft.shown().pixels, draft.pixel_size(), size, Rgb::lerp);
-    let pixels = composed(film, |y| {
-        let stand_in = &stand_in[(y * film.width) as usize..][..film.width as usize];
-        let mix = |(drafted, old): (Rgb, &Substitute)| drafted.lerp(old.radiance.max(Rgb::ZERO), old.trust);
-        drafted.row(y).zip(stand_in).map(mix).collect()
-    });
-    LinearImage { pixels, ..*film }
-}
-
-/// The values of the pixels of an image of the same size as `like`, of which `row` returns one row.
-fn composed<T: Send + Clone>(like: &LinearImage, row: impl Fn(u32) -> Vec<T> + Sync) -> Vec<T> {
-    (0..like.height).into_par_iter().map(&row).collect::<Vec<_>>().concat()
 }
 
 #[cfg(test)]
@@ -134,8 +119,7 @@ mod tests {
 
     fn preview() -> Preview {
         let pixel = |(value, trust)| Substitute { trust, ..Substitute::unchanged(Rgb::splat(value)) };
-        let stand_in = Arc::new([(1.0, 1.0), (2.0, 0.5), (3.0, 0.0)].map(pixel));
-        Preview { image: Arc::new(image([1.0, 2.0, 3.0])), stand_in, weight: 30.0 }
+        Preview { size: [3, 1], pixels: [(1.0, 1.0), (2.0, 0.5), (3.0, 0.0)].map(pixel).into(), weight: 30.0 }
     }
 
     fn values(image: &LinearImage) -> Vec<f32> {
@@ -144,7 +128,7 @@ mod tests {
 
     #[test]
     fn the_new_picture_takes_over_where_the_old_one_is_trusted_and_at_once_elsewhere() {
-        let value = |weight| preview().with(&image([5.0; 3]), weight).map(|image| values(&image));
+        let value = |weight| preview().with_iterations(&image([5.0; 3]), weight).map(|image| values(&image));
         let soon = value(0.1).unwrap();
         assert!(soon[0] < 1.1 && (3.4..3.6).contains(&soon[1]) && soon[2] == 5.0, "{soon:?}");
         let later = value(10.0).unwrap();
@@ -155,28 +139,27 @@ mod tests {
     #[test]
     fn a_pixel_that_has_changed_gives_way_sooner() {
         let mut changed = preview();
-        changed.stand_in = changed.stand_in.iter().map(|pixel| Substitute { squared_change: 0.1, ..*pixel }).collect();
-        let first = |preview: &Preview| values(&preview.with(&image([5.0; 3]), 1.0).unwrap())[0];
+        changed.pixels.iter_mut().for_each(|pixel| pixel.squared_change = 0.1);
+        let first = |preview: &Preview| values(&preview.with_iterations(&image([5.0; 3]), 1.0).unwrap())[0];
         assert!(first(&preview()) < 1.4 && first(&changed) > 4.0, "{} {}", first(&preview()), first(&changed));
     }
 
     #[test]
     fn a_draft_with_all_pixels_fills_in_the_doubtful_ones() {
-        assert_eq!(*preview().doubtful(1), [false, true, true]);
-        assert!((preview().doubtful_fraction() - 2.0 / 3.0).abs() < 1e-9);
+        assert_eq!(*preview().doubtful_pixels(1), [false, true, true]);
+        assert_eq!(preview().doubtful(), 2);
         let draft = Draft::of_pixels(3, vec![Rgb::splat(9.0); 3], 1.0, 1.0);
-        assert_eq!(values(&preview().refined(&draft).image), [1.0, 5.5, 9.0]);
+        assert_eq!(values(&preview().with_draft(&draft)), [1.0, 5.5, 9.0]);
         let smoothed = Draft { smoothed: Some(Arc::new(image([7.0; 3]))), ..draft };
-        assert_eq!(values(&preview().refined(&smoothed).image), [1.0, 4.5, 7.0], "as a screen shows it");
+        assert_eq!(values(&preview().with_draft(&smoothed)), [1.0, 4.5, 7.0], "as a screen shows it");
     }
 
     #[test]
     fn a_coarse_draft_has_all_pixels_between_which_a_doubtful_pixel_lies() {
         let trust = |index: u32| if index == 5 * 16 + 7 { 0.0 } else { 1.0 };
         let pixel = |index| Substitute { trust: trust(index), ..Substitute::unchanged(Rgb::ONE) };
-        let stand_in: Arc<[_]> = (0..16 * 16).map(pixel).collect();
-        let preview = Preview { image: Arc::new(LinearImage::black(16, 16)), stand_in, weight: 1.0 };
-        let doubtful = preview.doubtful(4);
+        let preview = Preview { size: [16; 2], pixels: (0..16 * 16).map(pixel).collect(), weight: 1.0 };
+        let doubtful = preview.doubtful_pixels(4);
         let chosen: Vec<usize> = (0..16).filter(|index| doubtful[*index]).collect();
         assert_eq!(chosen, [1, 2, 5, 6], "around (7, 5)");
     }

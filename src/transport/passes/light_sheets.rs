@@ -4,22 +4,13 @@ use super::input::PassInput;
 use crate::math::{Stream, morton_2d};
 use crate::transport::counters::Counters;
 use crate::transport::light_sheets::{Divided, Lattice, LightSheets, SheetsOfLight};
-use crate::transport::lights::{PROJECTION_SIDE, Pencil, ProjectionMap};
+use crate::transport::lights::{PROJECTION_SIDE, Pencil};
 use crate::transport::plan::CausticPlan;
 use glam::{DVec2, UVec2};
 use rayon::prelude::*;
 
-/// Rays that are traced everywhere, over the photon paths that would bring all caustics; more only where light is not smooth. With fewer, small
-/// objects between the rays would cast no shadow. Measured: with 0.25 iterations take longer for no less error.
-const EVERYWHERE: f64 = 0.125;
-/// Steps along a square of the finest lattice, over those that are traced everywhere.
-const REFINEMENT: u32 = 4;
-/// Most steps along a square that are traced everywhere.
-const MOST_STEPS: u32 = 64;
-
-/// Points of a lamp with an extent that have sheets in an iteration; they share the rays. Measured: with one, a lens shows
-/// few points of a lamp in the first seconds; with eight, iterations take longer for no less error.
-const POINTS_OF_LAMP: u64 = 4;
+/// Steps along a block of the finest lattice within which rays are traced everywhere.
+const SURE_BLOCK: u32 = 8;
 
 /// The sheets of an iteration.
 pub(super) struct Sheets {
@@ -34,19 +25,18 @@ pub(super) fn light_sheet_pass(input: &PassInput, caustics: &CausticPlan) -> Opt
     let mut divided = Vec::new();
     let mut pencils = Vec::new();
     for (light, _) in caustics.sheets.iter().enumerate().filter(|(_, has)| **has) {
-        let points =
-            if input.plan.is_draft() || !Pencil::varies(&input.world.lights[light]) { 1 } else { POINTS_OF_LAMP };
+        let points = if Pencil::varies(&input.world.lights[light]) { caustics.lattice.points_of_lamp } else { 1 };
         for point in 0..points {
             let index = input.iteration * points + point;
             let mut sampler = input.sampler(Stream::LightSheets, light as u64, index);
             let shift = sampler.next_2d();
-            let pencil = if input.plan.is_draft() {
+            let pencil = if points == 1 {
                 Pencil::middle(input.world, light)
             } else {
                 Pencil::sample(input.world, light, points, &mut sampler)
             };
-            let rays = input.plan.paths(caustics.paths[light], input.iteration).count() / points as usize;
-            divided.push(divided_lattice(input, light, &pencil, shift, rays, &caustics.projection_maps[light])?);
+            let paths = input.plan.paths(caustics.paths[light], input.iteration).count() / points as usize;
+            divided.push(divided_lattice(input, light, &pencil, shift, paths, caustics)?);
             pencils.push((light, pencil));
         }
     }
@@ -64,8 +54,8 @@ fn divided_lattice(
     light: usize,
     pencil: &Pencil,
     shift: DVec2,
-    rays: usize,
-    map: &ProjectionMap,
+    paths: usize,
+    caustics: &CausticPlan,
 ) -> Option<Vec<Divided>> {
     // One square more each way, because the lattice lies aside.
     let side = PROJECTION_SIDE as u32;
@@ -74,15 +64,10 @@ fn divided_lattice(
     squares.sort_by_key(|square| morton_2d(*square));
     let is_aimed = |square: &UVec2| {
         let min = (square.as_dvec2() - shift) / f64::from(side);
-        map.aims_between(min, min + 1.0 / f64::from(side))
+        caustics.projection_maps[light].aims_between(min, min + 1.0 / f64::from(side))
     };
     let aimed: Vec<bool> = squares.iter().map(is_aimed).collect();
-    let aimed_count = aimed.iter().filter(|&&aimed| aimed).count().max(1);
-    // A draft has no more rays than it has photons, so that its cost stays bounded.
-    let sure = if input.plan.is_draft() { 1.0 } else { EVERYWHERE };
-    let steps = (sure * rays as f64 / aimed_count as f64).sqrt() as u32;
-    let steps = (steps.clamp(2, MOST_STEPS) + 1).next_power_of_two() / 2;
-    let steps = if input.plan.is_draft() { steps } else { REFINEMENT * steps };
+    let steps = caustics.lattice.steps(paths, aimed.iter().filter(|&&aimed| aimed).count());
     let lattice = Lattice {
         world: input.world,
         camera: &input.plan.camera,
@@ -91,7 +76,7 @@ fn divided_lattice(
         side,
         shift,
         steps,
-        sure_block: steps.min(2 * REFINEMENT),
+        sure_block: steps.min(SURE_BLOCK),
     };
     let divide = |(square, aimed): (UVec2, bool)| {
         let found = if aimed { lattice.divide(square) } else { lattice.undivided(square) };

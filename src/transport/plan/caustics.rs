@@ -5,6 +5,7 @@ use super::paths::{allocate, of_pixels, power};
 use super::radii::{CAUSTIC_RADIUS, blur};
 use super::radius::MAX_SPHERE_FRACTION;
 use super::render_plan::{CausticPlan, Plan};
+use super::sheet_lattice::SheetLattice;
 use crate::geometry::Primitive;
 use crate::transport::density::schedule;
 use crate::transport::lights::ProjectionMap;
@@ -53,7 +54,7 @@ pub(super) fn plan(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
             "mirrors and glass cover up to {:.1} % of a light's directions; {} there",
             100.0 * covered,
             if sheets.contains(&true) {
-                "sheets of light, and photons where they are not smooth, go"
+                "light sheets, and photons where they are not smooth, go"
             } else {
                 "photons aim"
             }
@@ -63,7 +64,14 @@ pub(super) fn plan(world: &World, notes: &mut Notes) -> Option<CausticPlan> {
     let photons_per_pixel = paths.iter().sum::<u64>() as f64 / world.camera.pixel_count() as f64;
     let gathered_iterations =
         if may_be_sharp(world) { PHOTONS_PER_PIXEL_TO_SPLAT / photons_per_pixel } else { f64::INFINITY };
-    Some(CausticPlan { paths, projection_maps: Arc::new(maps), sheets, seen_indirectly, gathered_iterations })
+    Some(CausticPlan {
+        paths,
+        projection_maps: Arc::new(maps),
+        sheets,
+        lattice: SheetLattice::ITERATION,
+        seen_indirectly,
+        gathered_iterations,
+    })
 }
 
 /// Whether sheets of light bring a light's caustics: not of wide lamps, each of whose points has sheets of its own, nor where photons aim at

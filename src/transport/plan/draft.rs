@@ -3,6 +3,8 @@
 use super::paths::allocate;
 use super::radii::DRAFT_RADIUS;
 use super::render_plan::{CausticPlan, Plan};
+use super::sheet_lattice::SheetLattice;
+use crate::world::Camera;
 use std::sync::Arc;
 
 /// Photon paths of a draft for caustics: more would take longer than what they show is worth.
@@ -31,31 +33,38 @@ impl DraftSize {
 
 impl Plan {
     /// The plan for a first picture of bounded cost: fewer pixels, and fewer photons, in discs that hold about equally many of them for
-    /// any number of pixels.
+    /// any number of pixels. Light that was traced with the plan of one coarseness serves all others of the same thinning.
     pub fn draft(&self, DraftSize { coarseness, thinning }: DraftSize) -> Self {
         let size = |pixels: u32| pixels.div_ceil(coarseness.max(1)).max(1);
         let camera = self.camera.resized(size(self.camera.width), size(self.camera.height));
-        let pixels = camera.pixel_count() as f64;
         let fewer = |paths: &[u64], total: f64| allocate(paths.iter().map(|&p| p as f64).collect(), total);
         let [caustic_paths, global_paths] =
             [CAUSTIC_PATHS, GLOBAL_PATHS].map(|paths| paths / f64::from(thinning.max(1)));
-        let wider = |paths_per_pixel: f64, paths: f64| (paths_per_pixel * pixels / paths).sqrt().max(1.0);
-        let caustic_wider = wider(1.0, caustic_paths);
-        let global_radius = DRAFT_RADIUS * wider(GLOBAL_PATHS_PER_PIXEL, global_paths);
-        let radii = self.radii.draft(caustic_wider, global_radius);
+        let radii = |camera: Camera| {
+            let pixels = camera.pixel_count() as f64;
+            let wider = |paths_per_pixel: f64, paths: f64| (paths_per_pixel * pixels / paths).sqrt().max(1.0);
+            let global_radius = DRAFT_RADIUS * wider(GLOBAL_PATHS_PER_PIXEL, global_paths);
+            self.radii.draft(wider(1.0, caustic_paths), global_radius)
+        };
         let caustics = self.caustics.as_ref().map(|caustics| {
             let paths = fewer(&caustics.paths, caustic_paths);
             let rays_suffice =
                 |light: usize| paths[light] >= RAYS_FOR_SHEETS * caustics.projection_maps[light].aimed_cells();
             let sheets = caustics.sheets.iter().enumerate().map(|(light, has)| *has && rays_suffice(light)).collect();
-            CausticPlan { paths, sheets, gathered_iterations: f64::INFINITY, ..caustics.clone() }
+            CausticPlan {
+                paths,
+                sheets,
+                lattice: SheetLattice::DRAFT,
+                gathered_iterations: f64::INFINITY,
+                ..caustics.clone()
+            }
         });
         Self {
             camera,
             caustics,
-            glossy_mis: self.glossy_mis.draft(camera, |paths| fewer(paths, global_paths), radii.glossy),
+            glossy_mis: self.glossy_mis.draft(|paths| fewer(paths, global_paths), radii(self.camera).glossy),
             global_paths: fewer(&self.global_paths, global_paths),
-            radii,
+            radii: radii(camera),
             is_draft: true,
             bandwidth: None,
             samples: None,

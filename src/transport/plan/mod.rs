@@ -11,6 +11,7 @@
 //! | `light_importance` | how much of a light's paths matters for the camera |
 //! | `radii` | radii of density estimates after one full iteration |
 //! | `interleaved_grid` | the pixels that gather for their neighbours |
+//! | `sheet_lattice` | how many rays light sheets have |
 //! | `render_plan` | the plan itself |
 //! | `caustics` | whether there are caustics; photons gathered or splatted |
 //! | `interreflection` | whether there is interreflection |
@@ -36,6 +37,7 @@ mod radius;
 mod refined;
 mod render_plan;
 mod samples;
+mod sheet_lattice;
 mod unseen_light;
 
 pub use component::Component;
@@ -46,4 +48,5 @@ pub use notes::{PlanItem, PlanNote};
 pub use radii::Radii;
 pub(in crate::transport) use radius::IterationRadii;
 pub use render_plan::{CausticPlan, Plan};
+pub use sheet_lattice::SheetLattice;
 pub use unseen_light::UnseenLight;

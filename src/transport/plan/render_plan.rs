@@ -2,6 +2,7 @@
 
 use super::notes::PlanNote;
 use super::radii::Radii;
+use super::sheet_lattice::SheetLattice;
 use crate::transport::density::Bandwidth;
 use crate::transport::density::sample_allocation::SampleAllocation;
 use crate::transport::lights::{LightSampler, PhotonEmission, ProjectionMap};
@@ -64,6 +65,8 @@ pub struct CausticPlan {
     pub projection_maps: Arc<Vec<ProjectionMap>>,
     /// For each light, whether sheets of light bring its caustics, as far as they are smooth.
     pub sheets: Vec<bool>,
+    /// How many rays these sheets have.
+    pub lattice: SheetLattice,
     /// Whether the camera may see caustics in mirrors, through glass or in Phong lobes.
     pub seen_indirectly: bool,
     /// Until radii are measured, directly seen caustics of this many full iterations are gathered from the map, which is smoother than

@@ -67,9 +67,10 @@ impl GlossyMis {
         Self { paths, camera, radius }
     }
 
-    /// The weights of a draft with this camera; `paths` maps the numbers of photon paths of a full iteration to the numbers of the draft.
-    pub(in crate::transport) fn draft(&self, camera: Camera, paths: impl Fn(&[u64]) -> Vec<u64>, radius: f64) -> Self {
-        Self::new(camera, paths(&self.paths), radius)
+    /// The weights of a draft; `paths` maps the numbers of photon paths of a full iteration to the numbers of the draft. They do not depend
+    /// on the pixels of the draft, so that drafts of different sizes can have their photons in common.
+    pub(in crate::transport) fn draft(&self, paths: impl Fn(&[u64]) -> Vec<u64>, radius: f64) -> Self {
+        Self::new(self.camera, paths(&self.paths), radius)
     }
 
     /// Whether photons get any weight.
