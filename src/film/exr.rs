@@ -118,7 +118,7 @@ mod tests {
     fn equal_pictures_are_equal_files() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a.exr");
-        let pixels = (0..600 * 400).map(|k| Rgb::splat((k * k % 1009) as f32)).collect();
+        let pixels = (0..600 * 400_u64).map(|k| Rgb::splat((k * k % 1009) as f32)).collect();
         let image = LinearImage { width: 600, height: 400, pixels };
         let file = || {
             write_exr(&path, &image).unwrap();
