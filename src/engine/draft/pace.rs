@@ -26,6 +26,9 @@ const INERTIA: f64 = 1.3;
 const CHANGED: f64 = 0.5;
 /// Least part of the time of the first picture for a draft of what has changed: the picture comes later on a slow machine, but it shows more.
 const LEAST_FOR_CHANGES: f64 = 0.25;
+/// Greatest coarseness of what has changed: with coarser pixels the object under the hand cannot be recognised. The picture comes later where
+/// this takes longer.
+const COARSEST_CHANGES: u32 = 6;
 /// Coarseness of a finer draft over that of the draft before, at most: otherwise it would show little more.
 const FINER: f64 = 0.75;
 /// The same for a draft that bridges the wait for all pixels, which it makes longer.
@@ -94,9 +97,15 @@ impl DraftPace {
     }
 
     /// The size of a draft of what an edit has changed, `changed` pixels of the film, that may follow the first draft within the time of the
-    /// first picture, of which `seconds` have passed; `None` where it would not be much finer.
+    /// first picture, of which `seconds` have passed, or longer where it would be too coarse; `None` where it would not be much finer.
     pub(in crate::engine) fn of_changes(&self, changed: usize, seconds: f64) -> Option<DraftSize> {
-        self.finer_within((PICTURE_SECONDS - seconds).max(LEAST_FOR_CHANGES * PICTURE_SECONDS), changed, FINER)
+        let left = (PICTURE_SECONDS - seconds).max(LEAST_FOR_CHANGES * PICTURE_SECONDS);
+        let readable = DraftSize { coarseness: COARSEST_CHANGES, ..self.size };
+        match self.finer_within(left, changed, FINER) {
+            Some(size) if size.coarseness <= COARSEST_CHANGES => Some(size),
+            other if self.last.coarseness <= COARSEST_CHANGES || changed == 0 => other,
+            _ => Some(readable),
+        }
     }
 
     /// The size of a draft of `changed` pixels of the film that takes this time with the photons of the first draft; `None` where it would not
