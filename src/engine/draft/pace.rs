@@ -100,21 +100,20 @@ impl DraftPace {
     /// first picture, of which `seconds` have passed, or longer where it would be too coarse; `None` where it would not be much finer.
     pub(in crate::engine) fn of_changes(&self, changed: usize, seconds: f64) -> Option<DraftSize> {
         let left = (PICTURE_SECONDS - seconds).max(LEAST_FOR_CHANGES * PICTURE_SECONDS);
-        let readable = DraftSize { coarseness: COARSEST_CHANGES, ..self.size };
-        match self.finer_within(left, changed, FINER) {
-            Some(size) if size.coarseness <= COARSEST_CHANGES => Some(size),
-            other if self.last.coarseness <= COARSEST_CHANGES || changed == 0 => other,
-            _ => Some(readable),
-        }
+        let coarseness = self.coarseness_within(left, changed)?.min(COARSEST_CHANGES);
+        self.is_finer(coarseness, FINER).then_some(DraftSize { coarseness, ..self.size })
     }
 
-    /// The size of a draft of `changed` pixels of the film that takes this time with the photons of the first draft; `None` where it would not
-    /// have at most `finer` times the coarseness of the last draft.
-    fn finer_within(&self, seconds: f64, changed: usize, finer: f64) -> Option<DraftSize> {
+    /// The coarseness of a draft of `changed` pixels of the film that takes this time with the photons of the first draft; `None` where nothing
+    /// has changed, or no draft was timed.
+    fn coarseness_within(&self, seconds: f64, changed: usize) -> Option<u32> {
         let pixel = self.changed.or_else(|| self.times.map(|[_, pixel]| CHANGED * pixel))?;
-        let wanted = (changed as f64 * pixel / seconds).sqrt().ceil().max(1.0);
-        (changed > 0 && wanted <= finer * f64::from(self.last.coarseness))
-            .then_some(DraftSize { coarseness: wanted as u32, ..self.size })
+        (changed > 0).then(|| (changed as f64 * pixel / seconds).sqrt().ceil().max(1.0) as u32)
+    }
+
+    /// Whether a coarseness is at most this part of the last draft's.
+    fn is_finer(&self, coarseness: u32, part: f64) -> bool {
+        f64::from(coarseness) <= part * f64::from(self.last.coarseness)
     }
 
     /// The present scene's next draft of the whole film; `None` when iterations are due.
@@ -125,9 +124,10 @@ impl DraftPace {
     /// The present scene's next draft of `changed` pixels of the film, where a picture before the edit stands in for the rest; `None` when
     /// iterations are due.
     pub(in crate::engine) fn next_of_changes(&self, changed: usize) -> Option<DraftSize> {
-        let bridge = self.finer_within(BRIDGE_SECONDS, changed, MUCH_FINER);
         // With the few photons of the first draft all pixels would show little more.
-        let next = bridge.filter(|size| size.coarseness > 1).unwrap_or(DraftSize::FULL);
+        let is_worth = |coarseness: &u32| *coarseness > 1 && self.is_finer(*coarseness, MUCH_FINER);
+        let bridge = self.coarseness_within(BRIDGE_SECONDS, changed).filter(is_worth);
+        let next = bridge.map_or(DraftSize::FULL, |coarseness| DraftSize { coarseness, ..self.size });
         (changed > 0 && self.next.is_some()).then_some(next)
     }
 
@@ -205,6 +205,18 @@ mod tests {
             pace.of_changes(few, PICTURE_SECONDS).expect("there is always some time").coarseness >= finer.coarseness
         );
         assert_eq!(pace.of_changes(0, spent), None, "nothing has changed");
+    }
+
+    /// On a machine so slow that the first draft is as coarse as it may be.
+    #[test]
+    fn a_change_is_readable_whatever_time_that_takes() {
+        let mut pace = DraftPace::default();
+        for _ in 0..20 {
+            let size = pace.first(FILM, true);
+            pace.first_took(&draft(size, 20.0));
+        }
+        assert_eq!(pace.last.coarseness, COARSEST as u32);
+        assert_eq!(pace.of_changes(FILM, 0.1).map(|size| size.coarseness), Some(COARSEST_CHANGES));
     }
 
     #[test]

@@ -1,5 +1,8 @@
 //! How many rays light sheets have.
 
+/// Most steps along a square that are traced everywhere.
+const MOST_STEPS: u32 = 64;
+
 /// The lattice of a light whose light sheets an iteration or a draft traces.
 #[derive(Clone, Copy, Debug)]
 pub struct SheetLattice {
@@ -25,9 +28,6 @@ impl SheetLattice {
         self.refinement * ((everywhere.clamp(2, MOST_STEPS) + 1).next_power_of_two() / 2)
     }
 }
-
-/// Most steps along a square that are traced everywhere.
-const MOST_STEPS: u32 = 64;
 
 #[cfg(test)]
 mod tests {
