@@ -165,11 +165,12 @@ impl Worker {
         let Some(preview) = before.map(|before| pool.install(|| before.preview(camera, draft))) else {
             return Some(session.frame_of_draft(generation, image, smoothed, stats));
         };
-        let finer = drafts.of_changes(preview.doubtful(), start.elapsed().as_secs_f64()).and_then(|size| {
+        let changed = preview.doubtful();
+        let finer = drafts.of_changes(changed, start.elapsed().as_secs_f64()).and_then(|size| {
             pool.install(|| session.draft(size, Some(preview.doubtful_pixels(size.coarseness)), Cancel::NEVER))
         });
         if let Some(finer) = &finer {
-            drafts.changes_took(finer, preview.doubtful());
+            drafts.changes_took(finer, changed);
         }
         let shown = match &finer {
             Some(finer) => finer,

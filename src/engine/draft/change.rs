@@ -50,6 +50,11 @@ impl Substitute {
     pub(super) fn unchanged(radiance: Rgb) -> Self {
         Self { radiance, trust: 1.0, squared_change: 0.0 }
     }
+
+    /// Whether the picture before the edit does not suffice for the pixel.
+    pub(super) fn is_doubtful(&self) -> bool {
+        self.trust < 1.0
+    }
 }
 
 impl Change {

@@ -25,7 +25,7 @@ const INERTIA: f64 = 1.3;
 /// the dearest, but finer pixels share more of their work.
 const CHANGED: f64 = 0.5;
 /// Least part of the time of the first picture for a draft of what has changed: the picture comes later on a slow machine, but it shows more.
-const LEAST_FOR_CHANGES: f64 = 0.25;
+const LEAST_FOR_CHANGES: f64 = 0.5;
 /// Greatest coarseness of what has changed: with coarser pixels the object under the hand cannot be recognised. The picture comes later where
 /// this takes longer.
 const COARSEST_CHANGES: u32 = 6;

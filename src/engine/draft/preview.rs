@@ -57,28 +57,24 @@ impl Before<'_> {
 impl Preview {
     /// The pixels of a draft of this coarseness that the preview lacks.
     pub(in crate::engine) fn doubtful_pixels(&self, coarseness: u32) -> Arc<[bool]> {
-        let [width, height] = self.size.map(|side| side.div_ceil(coarseness));
-        let mut doubtful = vec![false; width as usize * height as usize];
-        let doubts = self.pixels.iter().zip(0..).filter(|(pixel, _)| pixel.trust < 1.0);
-        for (_, index) in doubts {
-            let (x, y) = (index % self.size[0], index / self.size[0]);
-            // The pixels of the draft between whose middles the pixel lies, if the draft is coarse.
-            let reach = |at: u32, count: u32| {
-                let (from, to) = (at.saturating_sub(coarseness / 2), at + coarseness / 2);
-                from / coarseness..(to / coarseness + 1).min(count)
-            };
-            for row in reach(y, height) {
-                for column in reach(x, width) {
-                    doubtful[(row * width + column) as usize] = true;
-                }
-            }
-        }
-        doubtful.into()
+        let size = self.size.map(|side| side.div_ceil(coarseness));
+        // The pixels of the film that lie between the middles of a pixel of the draft and its neighbours, if the draft is coarse.
+        let between = |at: u32, side: u32| {
+            let (from, to) = (at * coarseness, (at + 1) * coarseness);
+            (from.saturating_sub(coarseness / 2) as usize, (to + coarseness / 2).min(side) as usize)
+        };
+        let width = self.size[0] as usize;
+        let is_doubtful = |column: u32, row: u32| {
+            let ((left, right), (top, bottom)) = (between(column, self.size[0]), between(row, self.size[1]));
+            (top..bottom).any(|y| self.pixels[y * width + left..y * width + right].iter().any(Substitute::is_doubtful))
+        };
+        let is_doubtful = &is_doubtful;
+        filled(size, |row| (0..size[0]).map(move |column| is_doubtful(column, row))).into()
     }
 
     /// The number of pixels of the film that the preview lacks.
     pub(in crate::engine) fn doubtful(&self) -> usize {
-        self.pixels.iter().filter(|pixel| pixel.trust < 1.0).count()
+        self.pixels.iter().filter(|pixel| pixel.is_doubtful()).count()
     }
 
     /// The picture with the doubtful pixels of a draft of the scene after the edit.
