@@ -216,6 +216,7 @@
 //! - \[KamelFaloutsos93\] I. Kamel, C. Faloutsos, On Packing R-trees, CIKM 1993.
 //! - \[KD13\] A. Kaplanyan, C. Dachsbacher, Adaptive Progressive Photon Mapping, ACM TOG 32(2), 2013.
 //! - \[KellerHeidrich01\] A. Keller, W. Heidrich, Interleaved Sampling, EGWR 2001.
+//! - \[Kopf07\] J. Kopf et al., Joint Bilateral Upsampling, ACM TOG 26(3), 2007.
 //! - \[KZ11\] C. Knaus, M. Zwicker, Progressive Photon Mapping: A Probabilistic Approach, ACM TOG 30(3), 2011.
 //! - \[LafortuneWillems94\] E. Lafortune, Y. Willems, Using the Modified Phong Reflectance Model for Physically Based
 //!   Rendering, KU Leuven CW 197, 1994.
@@ -227,6 +228,7 @@
 //!   1934.
 //! - \[Owen97\] A. B. Owen, Scrambled Net Variance for Integrals of Smooth Functions, Annals of Statistics 25(4), 1997.
 //! - \[Reinhard02\] E. Reinhard et al., Photographic Tone Reproduction for Digital Images, SIGGRAPH 2002.
+//! - \[SaitoTakahashi90\] T. Saito, T. Takahashi, Comprehensible Rendering of 3-D Shapes, SIGGRAPH 1990.
 //! - \[Schuessler17\] V. Schüßler et al., Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing, ACM TOG 36(6), 2017.
 //! - \[Shoemake92\] K. Shoemake, Uniform Random Rotations, Graphics Gems III, 1992.
 //! - \[ShirleyChiu97\] P. Shirley, K. Chiu, A Low Distortion Map Between Disk and Square, JGT 2(3), 1997.

@@ -1,7 +1,7 @@
 //! The rendering of one scene.
 
 use super::display::Interreflection;
-use super::draft::Draft;
+use super::draft::{Detail, Draft};
 use super::film_part::FilmPart;
 use super::film_sums::FilmSums;
 use super::frame::{Frame, PlanSummary, Stats};
@@ -10,8 +10,9 @@ use super::pass_meter::{PassMeter, Work};
 use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::scene::SceneFile;
-use crate::transport::{Cancel, Component, Contribution, DraftSize, PassInput, Plan};
+use crate::transport::{Cancel, Component, Contribution, DraftSize, PassInput, Plan, g_buffer};
 use crate::world::{Camera, PrepareError, World, prepare, warnings};
+use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
 use thiserror::Error;
@@ -253,6 +254,21 @@ impl Session {
         let Work { counters, seconds } = meter.work();
         let stats = Stats::of_work(counters, seconds, start.elapsed().as_secs_f64());
         Some(Draft { size, image: Arc::new(image), smoothed, sharp, first_hits, stats })
+    }
+
+    /// What the first rays of a draft of this coarseness meet, in the chosen pixels only, if any; `None` when cancelled.
+    pub(super) fn detail(&self, coarseness: u32, chosen: Option<Arc<[bool]>>, cancel: Cancel) -> Option<Detail> {
+        let start = Instant::now();
+        let Self { world, plan, seed, .. } = self;
+        let whole = plan.draft(DraftSize { coarseness, thinning: 1 });
+        let plan = match chosen {
+            Some(chosen) => whole.of_pixels(chosen),
+            None => whole,
+        };
+        let input = PassInput { world, plan: &plan, seed: *seed, iteration: 1, guides: false, cancel };
+        let bands: Vec<_> = plan.bands(1).into_par_iter().map(|rows| g_buffer(&input, &rows)).collect::<Option<_>>()?;
+        let size = [plan.camera.width, plan.camera.height];
+        Some(Detail { size, first_hits: bands.concat(), seconds: start.elapsed().as_secs_f64() })
     }
 
     /// A draft of this size with pixels over the whole film; kept for the next call. Never cancelled.

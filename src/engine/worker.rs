@@ -1,6 +1,6 @@
 //! The worker thread: prepares the newest scene, drafts it, and renders iterations until a newer scene arrives.
 
-use super::draft::{DraftPace, Preview};
+use super::draft::{Detail, Draft, DraftPace, Preview, Upsampling};
 use super::frame::Frame;
 use super::messages::Status;
 use super::session::{Session, SessionError};
@@ -9,6 +9,7 @@ use super::stand_in::StandIn;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
 use crate::transport::Cancel;
+use crate::world::Camera;
 use crossbeam_channel::Receiver;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -159,26 +160,23 @@ impl Worker {
         let size = drafts.first(pixels, stand_in.is_some());
         let before = stand_in.as_mut().and_then(|stand_in| pool.install(|| stand_in.with_draft(size)));
         let start = Instant::now();
-        let draft = pool.install(|| session.whole_draft(size))?;
-        drafts.first_took(draft);
-        let (image, smoothed, stats) = (draft.image.clone(), draft.smoothed.clone(), draft.stats);
-        let Some(preview) = before.map(|before| pool.install(|| before.preview(camera, draft))) else {
-            return Some(session.frame_of_draft(generation, image, smoothed, stats));
+        let draft = pool.install(|| session.whole_draft(size).cloned())?;
+        drafts.first_took(&draft);
+        let Some(preview) = before.map(|before| pool.install(|| before.preview(camera, &draft))) else {
+            return Some(pool.install(|| frame_of_draft(session, generation, &draft, Cancel::NEVER)));
         };
         let changed = preview.doubtful();
         let finer = drafts.of_changes(changed, start.elapsed().as_secs_f64()).and_then(|size| {
             pool.install(|| session.draft(size, Some(preview.doubtful_pixels(size.coarseness)), Cancel::NEVER))
         });
+        let shown = finer.as_ref().unwrap_or(&draft);
+        let detail = pool.install(|| detail_of_changes(session, &preview, shown, Cancel::NEVER));
         if let Some(finer) = &finer {
-            drafts.changes_took(finer, changed);
+            drafts.changes_took(finer, detail.as_ref(), changed);
         }
-        let shown = match &finer {
-            Some(finer) => finer,
-            None => session.whole_draft(size)?,
-        };
-        let image = pool.install(|| preview.with_draft(shown)).into();
+        let image = pool.install(|| preview.with_draft(shown, detail.as_ref()));
         self.preview = Some(preview);
-        Some(session.frame_of_draft(generation, image, None, stats))
+        Some(session.frame_of_draft(generation, Arc::new(image), None, shown.stats))
     }
 
     /// Keeps the picture of the previous scene for the edits that follow, if the one that is kept does not fit the next scene, or has
@@ -209,14 +207,16 @@ impl Worker {
             let draft = self.pool.install(|| session.draft(size, doubtful, cancel));
             self.drafts.next_took(size, start.elapsed().as_secs_f64());
             if let Some(draft) = draft {
-                let (image, smoothed) = match &self.preview {
+                let frame = self.pool.install(|| match &self.preview {
                     Some(preview) => {
-                        self.drafts.changes_took(&draft, preview.doubtful());
-                        (self.pool.install(|| preview.with_draft(&draft)).into(), None)
+                        let detail = detail_of_changes(session, preview, &draft, cancel);
+                        self.drafts.changes_took(&draft, detail.as_ref(), preview.doubtful());
+                        let image = preview.with_draft(&draft, detail.as_ref());
+                        session.frame_of_draft(generation, Arc::new(image), None, draft.stats)
                     }
-                    None => (draft.image, draft.smoothed),
-                };
-                self.shared.publish(session.frame_of_draft(generation, image, smoothed, draft.stats));
+                    None => frame_of_draft(session, generation, &draft, cancel),
+                });
+                self.shared.publish(frame);
             }
             return Ok(());
         }
@@ -255,6 +255,23 @@ impl Worker {
         self.session = None;
         self.shared.set_status(Status::Failed(failure));
     }
+}
+
+/// The frame of a draft, with the pixels of the film; with those of the draft when cancelled.
+fn frame_of_draft(session: &Session, generation: u64, draft: &Draft, cancel: Cancel) -> Frame {
+    let Camera { width, height, .. } = session.camera();
+    let detail = Detail::coarseness(draft.size.coarseness).and_then(|finer| session.detail(finer, None, cancel));
+    let picture = |image: &Arc<LinearImage>| match &detail {
+        Some(detail) => Arc::new(Upsampling::new(draft, Some(detail), image, [width, height]).picture()),
+        None => image.clone(),
+    };
+    session.frame_of_draft(generation, picture(&draft.image), draft.smoothed.as_ref().map(picture), draft.stats)
+}
+
+/// The detail of a draft of what an edit has changed; `None` where the draft has all pixels, and when cancelled.
+fn detail_of_changes(session: &Session, preview: &Preview, draft: &Draft, cancel: Cancel) -> Option<Detail> {
+    let coarseness = Detail::coarseness(draft.size.coarseness)?;
+    session.detail(coarseness, Some(preview.doubtful_pixels(coarseness)), cancel)
 }
 
 /// The message of a panic.

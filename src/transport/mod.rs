@@ -52,7 +52,7 @@ pub use lights::{LightSampler, PhotonEmission, ProjectionMap};
 pub use pass::{Cancel, Rows};
 pub use passes::{
     Band, CameraBatch, CausticPhotons, Contribution, FirstHit, Gathered, GatheredBatch, Guides, LobeSample, PassInput,
-    SeenSurface, camera_pass, caustic_photon_pass, gather, global_photon_pass, lobe_samples,
+    SeenSurface, camera_pass, caustic_photon_pass, g_buffer, gather, global_photon_pass, lobe_samples,
 };
 pub use photons::{GlobalPhotons, MapKind, Maps, PerMap, Photon, PhotonMap, Query, Splat};
 pub use plan::{

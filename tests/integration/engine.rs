@@ -100,9 +100,9 @@ fn a_draft_comes_first_and_then_the_picture() {
     let frames = engine.frames_until(|frame| !frame.draft && frame.stats.error_estimate.is_some());
     let size = |frame: &Frame| (frame.image.width, frame.image.height);
     let (drafts, pictures) = frames.split_at(frames.iter().take_while(|frame| frame.draft).count());
-    assert_eq!(drafts.first().map(|frame| size(frame)), Some((16, 12)), "the first frame is a coarse draft");
+    assert!(!drafts.is_empty(), "the first frame is a draft");
     assert!(drafts.iter().all(|draft| draft.iteration == 0 && draft.generation == 1));
-    assert!(drafts.is_sorted_by(|a, b| a.image.width < b.image.width), "each is finer than the one before");
+    assert!(drafts.iter().all(|draft| size(draft) == (64, 48)), "coarse drafts are shown with the film's pixels");
     assert!(pictures.iter().all(|frame| !frame.draft && size(frame) == (64, 48) && frame.generation == 1));
     assert_eq!(pictures[0].iteration, 1);
     assert!(pictures.is_sorted_by(|a, b| a.iteration < b.iteration));

@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn another_surface_is_not_trusted_nor_light_on_what_was_dark() {
-        let farther = vec![FirstHit { depth: 2.02, is_matte: true }; (SIDE * SIDE) as usize];
+        let farther = vec![FirstHit { depth: 2.02, is_matte: true, facet: None }; (SIDE * SIDE) as usize];
         let moved = Draft { first_hits: farther, ..draft(1.0, texture) };
         assert_eq!(applied(&Change::between(&draft(1.0, texture), &moved), Rgb::ONE, [4, 4]).trust, 0.0);
         let lit = |column: u32| if column < 4 { 0.0 } else { 1.0 };

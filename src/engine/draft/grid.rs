@@ -30,6 +30,13 @@ impl Between {
         top + self.y * (bottom - top)
     }
 
+    /// The four pixels with their weights in the bilinear mean.
+    #[inline]
+    pub(super) fn weights(&self) -> [(usize, f32); 4] {
+        let ([a, b, c, d], x, y) = (self.indices, self.x, self.y);
+        [(a, (1.0 - x) * (1.0 - y)), (b, x * (1.0 - y)), (c, (1.0 - x) * y), (d, x * y)]
+    }
+
     /// The bilinear mean of colours of the pixels.
     #[inline]
     pub(super) fn color(&self, value: impl Fn(usize) -> Rgb) -> Rgb {

@@ -9,6 +9,7 @@
 //! | `image` | a draft |
 //! | `pace` | how coarse drafts are |
 //! | `grid` | positions between the middles of pixels |
+//! | `upsampling` | the light of a draft at more pixels than it has |
 //! | `change` | how the light has changed between two drafts |
 //! | `reprojection` | where a camera that has moved saw before what it sees now |
 //! | `preview` | a draft, and the picture before the edit where that stands in for it |
@@ -19,7 +20,9 @@ mod image;
 mod pace;
 mod preview;
 mod reprojection;
+mod upsampling;
 
 pub use image::Draft;
 pub(super) use pace::DraftPace;
 pub(super) use preview::{Before, Preview};
+pub(super) use upsampling::{Detail, Upsampling};

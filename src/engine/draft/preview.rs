@@ -1,11 +1,11 @@
 //! A picture for the screen: the draft of a scene, and the picture before the edit where that stands in for it.
 
 use super::change::{Change, Substitute};
-use super::grid::{Enlarged, filled, sample};
+use super::grid::{filled, sample};
 use super::image::Draft;
 use super::reprojection::Reprojection;
+use super::upsampling::{Detail, Upsampling};
 use crate::film::LinearImage;
-use crate::math::Rgb;
 use crate::world::Camera;
 use std::sync::Arc;
 
@@ -77,13 +77,14 @@ impl Preview {
         self.pixels.iter().filter(|pixel| pixel.is_doubtful()).count()
     }
 
-    /// The picture with the doubtful pixels of a draft of the scene after the edit.
-    pub(in crate::engine) fn with_draft(&self, draft: &Draft) -> LinearImage {
-        let drafted = Enlarged::new(&draft.shown().pixels, draft.pixel_size(), self.size, Rgb::lerp);
-        let [width, height] = self.size;
+    /// The picture with the doubtful pixels of a draft of the scene after the edit, given its detail there, if it has any.
+    pub(in crate::engine) fn with_draft(&self, draft: &Draft, detail: Option<&Detail>) -> LinearImage {
+        let drafted = Upsampling::new(draft, detail, draft.shown(), self.size);
+        let (drafted, [width, height]) = (&drafted, self.size);
         let pixels = filled(self.size, |y| {
-            let row = &self.pixels[(y * width) as usize..];
-            drafted.row(y).zip(row).map(|(drafted, old)| drafted.lerp(old.radiance, old.trust))
+            (0..width).zip(&self.pixels[(y * width) as usize..]).map(move |(x, old)| {
+                if old.is_doubtful() { drafted.at(x, y).lerp(old.radiance, old.trust) } else { old.radiance }
+            })
         });
         LinearImage { width, height, pixels }
     }
@@ -108,6 +109,7 @@ impl Preview {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Rgb;
 
     fn image(values: [f32; 3]) -> LinearImage {
         LinearImage { width: 3, height: 1, pixels: values.map(Rgb::splat).into() }
@@ -145,9 +147,9 @@ mod tests {
         assert_eq!(*preview().doubtful_pixels(1), [false, true, true]);
         assert_eq!(preview().doubtful(), 2);
         let draft = Draft::of_pixels(3, vec![Rgb::splat(9.0); 3], 1.0, 1.0);
-        assert_eq!(values(&preview().with_draft(&draft)), [1.0, 5.5, 9.0]);
+        assert_eq!(values(&preview().with_draft(&draft, None)), [1.0, 5.5, 9.0]);
         let smoothed = Draft { smoothed: Some(Arc::new(image([7.0; 3]))), ..draft };
-        assert_eq!(values(&preview().with_draft(&smoothed)), [1.0, 4.5, 7.0], "as a screen shows it");
+        assert_eq!(values(&preview().with_draft(&smoothed, None)), [1.0, 4.5, 7.0], "as a screen shows it");
     }
 
     #[test]

@@ -36,7 +36,7 @@ mod visible_parts;
 mod tests;
 
 pub use band::{Band, Contribution};
-pub use camera::{CameraBatch, FirstHit, camera_pass};
+pub use camera::{CameraBatch, FirstHit, camera_pass, g_buffer};
 pub use caustic_photons::{CausticPhotons, caustic_photon_pass};
 pub use gather::gather;
 pub use gathered::{Gathered, GatheredBatch};

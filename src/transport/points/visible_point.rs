@@ -51,7 +51,7 @@ pub struct VisiblePoint {
     pub blur: f32,
 }
 
-/// Shading normal and albedo where one camera path of a pixel met a surface with a normal or height map.
+/// Shading normal and albedo where one camera path of a pixel met a surface first.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet {
     /// Shading unit normal on the seen side.

@@ -1,3 +1,4 @@
+use super::first_hit::FirstHit;
 use crate::transport::counters::{Counted, Counters};
 use crate::transport::density::PixelSamples;
 use crate::transport::points::{Facet, VisiblePoint};
@@ -16,20 +17,6 @@ pub struct CameraBatch {
     pub first_hits: Vec<FirstHit>,
     /// Work done.
     pub counters: Counters,
-}
-
-/// Where the first ray of a pixel ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FirstHit {
-    /// The length of the ray, scene units; infinite where it met nothing.
-    pub depth: f32,
-    /// Whether the surface looks the same from everywhere: it neither mirrors nor refracts, and has no Phong lobe.
-    pub is_matte: bool,
-}
-
-impl FirstHit {
-    /// Nothing was met.
-    pub(super) const NONE: Self = Self { depth: f32::INFINITY, is_matte: false };
 }
 
 impl Counted for CameraBatch {

@@ -37,6 +37,12 @@ impl Pixel {
         self.has_relief |= has_relief;
     }
 
+    /// The surface that the first path of the pixel met, if that was not a lamp.
+    #[inline]
+    pub(super) fn first_facet(&self) -> Option<Facet> {
+        self.facets.first().copied()
+    }
+
     /// Completes the visible points of the pixel, from `first` on, and adds their facets. Where all paths met one surface first, its albedo
     /// and relief at all of their first vertices count: albedo and relief at one point of the pixel would be noise.
     #[inline]

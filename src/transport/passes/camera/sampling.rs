@@ -1,6 +1,7 @@
 //! All camera samples of a pixel in an iteration, pixel by pixel.
 
-use super::batch::{CameraBatch, FirstHit};
+use super::batch::CameraBatch;
+use super::first_hit::FirstHit;
 use super::pixel::Pixel;
 use super::tracer::CameraTracer;
 use crate::geometry::Hit;
@@ -44,11 +45,11 @@ pub fn camera_pass(input: &PassInput, rows: &Rows) -> Option<CameraBatch> {
                 let own = rest.split_off_mut(..count).unwrap_or_default();
                 let index = ((row - rows.start) * width + column) as usize;
                 let Some(first) = own.first() else { continue };
-                if let (Some(first_hit), Some(hit)) = (tracer.batch.first_hits.get_mut(index), first.hit) {
-                    let is_matte = !world.is_specular(hit.primitive) && !world.is_glossy(hit.primitive);
-                    *first_hit = FirstHit { depth: hit.t as f32, is_matte };
-                }
+                let hit = first.hit;
                 tracer.batch.samples[index] = sample_pixel(input, &mut tracer, &mut pixel, own);
+                if let (Some(first_hit), Some(hit)) = (tracer.batch.first_hits.get_mut(index), hit) {
+                    *first_hit = FirstHit { facet: pixel.first_facet(), ..FirstHit::new(world, hit) };
+                }
             }
         }
     }
@@ -56,16 +57,16 @@ pub fn camera_pass(input: &PassInput, rows: &Rows) -> Option<CameraBatch> {
 }
 
 /// The first ray of a camera path and its nearest hit.
-struct FirstRay {
+pub(super) struct FirstRay {
     sampler: Sampler,
     /// Where the ray crosses the pixel, from 0 to 1 each way.
     within_pixel: Vec2,
-    ray: Ray,
-    hit: Option<Hit>,
+    pub(super) ray: Ray,
+    pub(super) hit: Option<Hit>,
 }
 
 /// The first rays of all samples of an iteration for some pixels of a row, pixel by pixel, traced in packets.
-fn trace_first_rays(input: &PassInput, row: u32, columns: Range<u32>) -> Vec<FirstRay> {
+pub(super) fn trace_first_rays(input: &PassInput, row: u32, columns: Range<u32>) -> Vec<FirstRay> {
     let PassInput { world, plan, iteration, .. } = *input;
     let camera = &plan.camera;
     let samples = |column| plan.camera_samples(row * camera.width + column, iteration);

@@ -2,6 +2,7 @@
 
 use super::batch::CameraBatch;
 use super::clearance::clearance;
+use super::first_hit::facet;
 use super::pixel::Pixel;
 use crate::geometry::Hit;
 use crate::math::{Ray, Rgb, Sampler};
@@ -9,7 +10,7 @@ use crate::transport::lights::{DirectLight, SeenBy, direct};
 use crate::transport::photons::{Signature, photon};
 use crate::transport::plan::Plan;
 use crate::transport::points::{
-    Clearance, Facet, MisVertex, SpecularEvent, Vertex, ViewingLobe, VisiblePoint, bsdf, roulette,
+    Clearance, MisVertex, SpecularEvent, Vertex, ViewingLobe, VisiblePoint, bsdf, roulette,
 };
 use crate::world::{Lobe, Media, Surface, World};
 use arrayvec::ArrayVec;
@@ -144,14 +145,8 @@ impl<'a> CameraTracer<'a> {
 
     fn add_first_vertex(&self, vertex: &Vertex, is_textured: bool, pixel: &mut Pixel) {
         pixel.is_textured |= is_textured;
-        if self.plan.gathers() {
-            let facet = Facet {
-                normal: vertex.n_shade.as_vec3(),
-                albedo: vertex.scattering.albedo,
-                tag: photon::tag(vertex.side, 0),
-                position: (vertex.point.position - self.world.view.origin).as_vec3(),
-            };
-            pixel.add(facet, vertex.n_shade != vertex.n_side);
+        if self.plan.gathers() || self.plan.is_draft() {
+            pixel.add(facet(self.world, vertex), vertex.n_shade != vertex.n_side);
         }
     }
 
