@@ -27,9 +27,9 @@ const INERTIA: f64 = 1.3;
 const CHANGED: f64 = 0.5;
 /// Least part of the time of the first picture for a draft of what has changed: the picture comes later on a slow machine, but it shows more.
 const LEAST_FOR_CHANGES: f64 = 0.5;
-/// Greatest coarseness of what has changed: with coarser pixels the object under the hand cannot be recognised. The picture comes later where
-/// this takes longer.
-const COARSEST_CHANGES: u32 = 6;
+/// Greatest coarseness of what has changed: with a detail coarser than 4 pixels the object under the hand cannot be recognised. The picture
+/// comes later where this takes longer.
+const COARSEST_CHANGES: u32 = 12;
 /// Coarseness of a finer draft over that of the draft before, at most: otherwise it would show little more.
 const FINER: f64 = 0.75;
 /// The same for a draft that bridges the wait for all pixels, which it makes longer.
