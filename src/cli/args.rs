@@ -1,6 +1,6 @@
 //! The command line, and the texts of `--help`.
 
-use crate::{engine::MOST_ITERATIONS, scene::SurfaceExport, transport::Component};
+use crate::{engine::MOST_ITERATIONS, scene::SurfaceOptions, transport::Component};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::Deserialize;
 use std::{num::NonZeroUsize, path::PathBuf};
@@ -37,7 +37,7 @@ pub(super) enum Command {
     Check(CheckArguments),
     /// Print the nearest hit of every ray on Bezier patches: `1,t,u,v` or `0,,,`
     Intersect(IntersectArguments),
-    /// Write the Bezier patches of a scene as a mesh (.obj) or as control points (.bpt)
+    /// Write the Bezier patches of a scene as a mesh (.obj, .stl), control points (.bpt) or surfaces (.step)
     Export(ExportArguments),
 }
 
@@ -226,15 +226,19 @@ pub(super) struct IntersectArguments {
 pub(super) struct ExportArguments {
     /// A scene file or the name of a built-in scene
     pub(super) scene: PathBuf,
-    /// The file: .obj for a mesh of quads with normals and (u, v), welded between patches; .bpt for control points
-    #[arg(short, long, value_name = "OUT.(obj|bpt)")]
+    /// The file: .obj for a mesh of quads with normals and (u, v), welded between patches; .stl for its triangles; .bpt for control points;
+    /// .step for exact surfaces
+    #[arg(short, long, value_name = "OUT.(obj|stl|bpt|step)")]
     pub(super) output: PathBuf,
     /// Export only this object [default: all objects of Bezier patches]
     #[arg(long, value_name = "NAME")]
     pub(super) object: Option<String>,
-    /// Number of quads along each side of a patch in an .obj file
-    #[arg(long, value_name = "N", default_value_t = SurfaceExport::STEPS, value_parser = parse_steps)]
+    /// Number of quads along each side of a patch in a mesh
+    #[arg(long, value_name = "N", default_value_t = SurfaceOptions::default().steps, value_parser = parse_steps)]
     pub(super) steps: NonZeroUsize,
+    /// Write Bezier surfaces (cstype bezier) in place of a mesh into an .obj file
+    #[arg(long)]
+    pub(super) free_form: bool,
 }
 
 fn parse_iterations(text: &str) -> Result<Iterations, String> {

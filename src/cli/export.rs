@@ -3,19 +3,27 @@ use super::{
     args::ExportArguments,
     output::{must_not_overwrite, must_spare_files_of, write},
 };
-use crate::scene::{Scene, SceneFile, Shape, SurfaceExport, SurfaceFormat};
+use crate::scene::{Scene, SceneFile, Shape, SurfaceExport, SurfaceFormat, SurfaceOptions};
 
-/// `patchlight export`: writes the Bezier patches of a scene in world space, as a mesh or as control points.
+/// `patchlight export`: writes the Bezier patches of a scene in world space, for another program.
 pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
     let file = SceneFile::find(&arguments.scene)?;
     let of_scene = |message: String| CliError::Usage(format!("{}: {message}", file.location.label()));
     let surface = chosen(&file.scene, arguments.object.as_deref()).map_err(of_scene)?;
     let path = arguments.output.display();
-    let format = SurfaceFormat::of(&arguments.output)
-        .ok_or_else(|| CliError::Usage(format!("{path}: expected a name that ends in .obj or .bpt")))?;
+    let format = SurfaceFormat::of(&arguments.output).ok_or_else(|| {
+        let names = SurfaceFormat::EXTENSIONS.map(|extension| format!(".{extension}")).join(", ");
+        CliError::Usage(format!("{path}: expected a name that ends in one of {names}"))
+    })?;
+    if arguments.free_form && format != SurfaceFormat::Obj {
+        return Err(CliError::Usage(format!("{path}: --free-form is for .obj alone")));
+    }
     must_not_overwrite(&arguments.output, [(arguments.scene.as_path(), "the scene")])?;
     must_spare_files_of(&file, &arguments.output)?;
-    write(&arguments.output, surface.text(format, arguments.steps).as_bytes())
+    write(
+        &arguments.output,
+        &surface.bytes(format, SurfaceOptions { steps: arguments.steps, free_form: arguments.free_form }),
+    )
 }
 
 /// The patches of the object with this name, or of all objects that have patches.

@@ -1,7 +1,7 @@
 use super::built_in::embedded;
 use crate::{
     file::{folder, read_limited, shortened},
-    geometry::bezier::{ControlNet, read_bpt},
+    geometry::bezier::{ControlNet, PatchFormat},
 };
 use image::{DynamicImage, ImageDecoder, ImageError, ImageReader};
 use std::{
@@ -31,7 +31,7 @@ pub enum Location {
 }
 
 impl Location {
-    /// The bytes of a file that the scene names, an image or a `.bpt` file.
+    /// The bytes of a file that the scene names, an image or a file of patches.
     ///
     /// # Errors
     ///
@@ -45,15 +45,16 @@ impl Location {
         }
     }
 
-    /// The patches of a `.bpt` file that the scene names.
+    /// The patches of a file that the scene names, in the format of its extension, otherwise `.bpt`.
     ///
     /// # Errors
     ///
-    /// A message, if the file cannot be read or is not a valid `.bpt` file.
+    /// A message, if the file cannot be read or holds no valid patches.
     pub fn read_patches(&self, relative: &str) -> Result<Vec<ControlNet>, String> {
         let bytes = self.read(relative).map_err(|e| format!("\"{relative}\" cannot be read: {e}"))?;
         let text = str::from_utf8(&bytes).map_err(|e| format!("\"{relative}\" is not UTF-8 text: {e}"))?;
-        read_bpt(text).map_err(|e| format!("\"{relative}\": {}", shortened(&e.to_string())))
+        let format = PatchFormat::of(Path::new(relative)).unwrap_or(PatchFormat::Bpt);
+        format.read(text).map_err(|e| format!("\"{relative}\": {}", shortened(&e.to_string())))
     }
 
     /// The decoded PNG or JPEG file that the scene names, upright by the orientation that its EXIF data states.

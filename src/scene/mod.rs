@@ -14,11 +14,11 @@
 //! | `location` | [`Location`]: finds the files that a scene names |
 //! | `validate/` | [`validate()`]: the errors of a scene, from a file or from the window |
 //! | `load/`, `save/` | from text to a scene, and back |
-//! | `surface_scene` | the scene that shows the patches of a `.bpt` file |
+//! | `surface_scene` | the scene that shows the patches of a file |
 //! | `file/` | [`SceneFile`]: opens and saves scenes with the files that they name |
 //! | `fingerprint` | a number that tells scenes apart |
 //! | `snapshot` | the state of a scene as text, valid or not |
-//! | `surface_export` | [`SurfaceExport`]: patches as `.obj` or `.bpt` |
+//! | `surface_export` | [`SurfaceExport`]: patches for other programs |
 
 mod bezier;
 mod built_in;
@@ -56,7 +56,7 @@ pub use material::{Color, Material, MaterialModel, Relief};
 pub use object::{BodyKey, Object, Shape};
 pub use problem::Problem;
 pub use render::Render;
-pub use surface_export::{SurfaceExport, SurfaceFormat};
+pub use surface_export::{SurfaceExport, SurfaceFormat, SurfaceOptions};
 pub use texture::{Encoding, Texture, TextureUse};
 pub use uv_rect::UvRect;
 pub use validate::{MAX_LENGTH, MAX_RADIANCE, MIN_LENGTH, validate};

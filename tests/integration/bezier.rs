@@ -288,6 +288,6 @@ fn exported_files_read_back() {
     let text = fs::read_to_string(to("teapot.obj")).unwrap();
     let count = |start: &str| text.lines().filter(|line| line.starts_with(start)).count();
     assert_eq!((count("f "), count("vn ")), (32 * 9, count("v ")));
-    let output = patchlight(dir.path(), &["export", "teapot", "-o", &to("teapot.stl")]);
+    let output = patchlight(dir.path(), &["export", "teapot", "-o", &to("teapot.ply")]);
     assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
 }

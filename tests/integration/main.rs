@@ -11,6 +11,7 @@ mod closed_forms;
 mod components;
 mod energy;
 mod engine;
+mod exchange;
 mod far_away;
 mod far_lamps;
 mod glass;

@@ -5,9 +5,8 @@ use super::length_unit::LengthUnit;
 use super::purpose::Purpose;
 use crate::app::document::surface::Coupling;
 use crate::app::document::{Edit, NewItem, Selection};
-use crate::scene::Camera;
+use crate::scene::{Camera, SurfaceOptions};
 use egui::ThemePreference;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// A request of the user to the editor.
@@ -57,8 +56,8 @@ pub(crate) enum AppCommand {
     CloseHint,
     /// Stop rendering at this relative error; `None` never stops.
     Target(Option<f64>),
-    /// Ask for a file to export the surface to, with this many quads along each side of a patch.
-    ExportSurface(NonZeroUsize),
+    /// Ask for a file to export the surface to.
+    ExportSurface(SurfaceOptions),
     /// Snap to a grid with this step, scene units; `None` for the automatic step.
     Grid(Option<f64>),
     /// Name the unit of lengths.

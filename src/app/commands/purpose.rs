@@ -1,5 +1,7 @@
 //! The purposes of a file, with the formats that each allows.
 
+use crate::geometry::bezier::PatchFormat;
+use crate::scene::SurfaceFormat;
 use std::path::Path;
 
 /// The purpose of a file that the user chooses.
@@ -61,8 +63,8 @@ impl Purpose {
             Self::OpenScene | Self::SaveScene => &["toml"],
             Self::ExportPicture => &["png", "exr"],
             Self::ExportShown => &["png"],
-            Self::ExportSurface => &["obj", "bpt"],
-            Self::AddSurface => &["bpt"],
+            Self::ExportSurface => &SurfaceFormat::EXTENSIONS,
+            Self::AddSurface => &PatchFormat::EXTENSIONS,
             Self::AddTexture => &["png", "jpg", "jpeg"],
         }
     }
@@ -73,8 +75,8 @@ impl Purpose {
             Self::OpenScene | Self::SaveScene => ".toml (scene)",
             Self::ExportPicture => ".png (tone-mapped) or .exr (linear, 32-bit float)",
             Self::ExportShown => ".png (with the display filter, where it is on)",
-            Self::ExportSurface => ".obj (mesh) or .bpt (control points)",
-            Self::AddSurface => ".bpt (control points of bicubic patches)",
+            Self::ExportSurface => ".obj or .stl (mesh), .bpt (control points), .step (surfaces)",
+            Self::AddSurface => ".bpt, .obj, .pov, .rib (bicubic Bezier patches)",
             Self::AddTexture => ".png or .jpg (image)",
         }
     }

@@ -43,7 +43,7 @@ impl Editor {
             AppCommand::TypePath => self.ask_for_typed_path(),
             AppCommand::CloseDialog => self.close_dialog(),
             AppCommand::CloseHint => self.show_hint = false,
-            AppCommand::ExportSurface(steps) => self.ask_for_surface_path(ctx, steps),
+            AppCommand::ExportSurface(options) => self.ask_for_surface_path(ctx, options),
             AppCommand::Grid(step) => self.canvas.grasp.grid = step,
             AppCommand::LengthUnit(unit) => self.length_unit = unit,
             AppCommand::Theme(theme) => ctx.set_theme(theme),

@@ -5,8 +5,9 @@ use crate::app::commands::{Next, Purpose};
 use crate::app::document::{Edit, new_items};
 use crate::app::files::{Outcome, PathField, Request, complete, surface_of};
 use crate::app::shell::{Dialog, drop_hint};
+use crate::scene::SurfaceOptions;
 use egui::Context;
-use std::num::NonZeroUsize;
+
 use std::path::PathBuf;
 
 impl Editor {
@@ -83,17 +84,17 @@ impl Editor {
     /// Asks how to export the surface; warns in a scene without a Bezier object.
     pub(crate) fn ask_for_surface(&mut self) {
         match surface_of(&self.document) {
-            Some(surface) => self.dialog = Some(Dialog::Surface(surface.name, self.export.steps.get())),
+            Some(surface) => self.dialog = Some(Dialog::Surface(surface.name, self.export.surface_options)),
             None => {
                 self.toasts.warning("The scene has no Bezier object to export");
             }
         }
     }
 
-    /// Asks for a path to export the surface to, with `steps` quads along each side of a patch.
-    pub(crate) fn ask_for_surface_path(&mut self, ctx: &Context, steps: NonZeroUsize) {
+    /// Asks for a path to export the surface to.
+    pub(crate) fn ask_for_surface_path(&mut self, ctx: &Context, options: SurfaceOptions) {
         self.dialog = None;
-        self.export.steps = steps;
+        self.export.surface_options = options;
         self.ask_for_path(ctx, Purpose::ExportSurface);
     }
 

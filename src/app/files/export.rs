@@ -5,10 +5,9 @@ use crate::app::document::Document;
 use crate::engine::Frame;
 use crate::file::write_whole;
 use crate::film::{LinearImage, ToneMap, write_exr, write_png};
-use crate::scene::{Film, SurfaceExport, SurfaceFormat};
+use crate::scene::{Film, SurfaceExport, SurfaceFormat, SurfaceOptions};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use egui::Context;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -23,15 +22,15 @@ pub(crate) struct Exported {
 pub(crate) struct Export {
     /// The purpose and the path of a requested picture, which waits for the first frame that is no draft.
     waiting: Option<(Purpose, PathBuf)>,
-    /// Quads along each side of a patch, in a mesh.
-    pub(crate) steps: NonZeroUsize,
+    /// How surfaces are written.
+    pub(crate) surface_options: SurfaceOptions,
     // Each click sends at most one message.
     done: (Sender<Exported>, Receiver<Exported>),
 }
 
 impl Default for Export {
     fn default() -> Self {
-        Self { waiting: None, steps: SurfaceExport::STEPS, done: unbounded() }
+        Self { waiting: None, surface_options: SurfaceOptions::default(), done: unbounded() }
     }
 }
 
@@ -49,9 +48,9 @@ impl Export {
     /// Writes the surface to `path`, in the format of the path's extension; writes no file for an unknown extension.
     pub(crate) fn write_surface(&self, ctx: &Context, surface: SurfaceExport, path: PathBuf) {
         let Some(format) = SurfaceFormat::of(&path) else { return };
-        let steps = self.steps;
+        let options = self.surface_options;
         self.spawn(ctx, Purpose::ExportSurface, path, move |path| {
-            write_whole(path, surface.text(format, steps).as_bytes())
+            write_whole(path, &surface.bytes(format, options))
                 .map_err(|error| format!("{} cannot be written: {error}", path.display()))
         });
     }

@@ -88,7 +88,7 @@ fn objects_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) 
     });
     section_ui(ui, &OBJECTS, objects, document, commands, |ui, commands| {
         add_buttons_ui(ui, NewItem::OBJECTS, commands);
-        if ui.button("patches from a .bpt file…").clicked() {
+        if ui.button("patches from a file…").clicked() {
             commands.push(AppCommand::AddFrom(Purpose::AddSurface));
         }
     });

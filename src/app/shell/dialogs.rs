@@ -8,6 +8,7 @@ use crate::app::document::Document;
 use crate::app::files::PathField;
 use crate::app::keeping::LeftOverRow;
 use crate::app::panels::count;
+use crate::scene::SurfaceOptions;
 use egui::{Context, Grid, Id, Modal, ScrollArea, TextEdit, Ui};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -28,7 +29,7 @@ pub(crate) enum Dialog {
     /// Asks for a path.
     Path(PathField),
     /// Asks how to export a surface: the surface's name, the quads along each side of a patch.
-    Surface(String, usize),
+    Surface(String, SurfaceOptions),
     /// Lists keys and mouse gestures.
     Help,
     /// Finds commands by name.
@@ -46,7 +47,7 @@ pub(crate) fn dialog_ui(ctx: &Context, dialog: &mut Dialog, document: &Document,
             Dialog::Recovery(rows) => recovery_ui(ui, rows, commands),
             Dialog::Error(title, text) => error_ui(ui, title, text, commands),
             Dialog::Path(field) => field.ui(ui, commands),
-            Dialog::Surface(name, steps) => surface_ui(ui, name, steps, commands),
+            Dialog::Surface(name, options) => surface_ui(ui, name, options, commands),
             Dialog::Help => help_ui(ui, commands),
             Dialog::Palette(palette) => palette.ui(ui, document.scene(), commands),
         }
@@ -132,18 +133,27 @@ fn error_ui(ui: &mut Ui, title: &str, text: &str, commands: &mut Vec<AppCommand>
     });
 }
 
-fn surface_ui(ui: &mut Ui, name: &str, steps: &mut usize, commands: &mut Vec<AppCommand>) {
+fn surface_ui(ui: &mut Ui, name: &str, options: &mut SurfaceOptions, commands: &mut Vec<AppCommand>) {
     ui.heading("Export surface");
-    ui.label(format!("Exports {name} in world space, as a mesh (.obj) or as control points (.bpt)."));
+    ui.label(format!(
+        "Exports {name} in world space: as a mesh (.obj, .stl), as control points (.bpt), or as exact surfaces for CAD programs (.step)."
+    ));
     ui.horizontal(|ui| {
         ui.label("Quads along each side of a patch");
-        count(ui, "Quads along each side of a patch", steps, 1..=1024, 0.2);
-        ui.weak("(.obj only)");
+        let mut steps = options.steps.get();
+        count(ui, "Quads along each side of a patch", &mut steps, 1..=1024, 0.2);
+        options.steps = NonZeroUsize::new(steps).unwrap_or(options.steps);
+        ui.weak("(.obj and .stl)");
+    });
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut options.free_form, "Bezier surfaces in place of the mesh")
+            .on_hover_text("Exact, as `cstype bezier`; few programs read it");
+        ui.weak("(.obj)");
     });
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         if primary_ui(ui, "Choose file…") {
-            commands.extend(NonZeroUsize::new(*steps).map(AppCommand::ExportSurface));
+            commands.push(AppCommand::ExportSurface(*options));
         }
         if ui.button("Cancel").clicked() {
             commands.push(AppCommand::CloseDialog);

@@ -10,7 +10,7 @@ pub(crate) fn drop_hint(purpose: Option<Purpose>) -> &'static str {
         Some(Purpose::AddSurface) => "Drop the file to add its patches to the scene.",
         Some(Purpose::AddTexture) => "Drop the file to add it as a texture.",
         Some(_) => "Drop the file to open it as a scene.",
-        None => "The window reads .toml scenes, .bpt patches, and .png and .jpg textures.",
+        None => "The window reads .toml scenes, patches (.bpt, .obj, .pov, .rib), and .png and .jpg textures.",
     }
 }
 

@@ -102,7 +102,7 @@ fn entries(ctx: &Context, scene: &Scene) -> Vec<Entry> {
         plain(format!("Add material {label}"), AppCommand::Edit(add))
     });
     let files = [
-        ("Add patches from a .bpt file…", Purpose::AddSurface),
+        ("Add patches from a file (.bpt, .obj, .pov, .rib)…", Purpose::AddSurface),
         ("Add texture from a PNG or JPEG file…", Purpose::AddTexture),
     ];
     let files = files.map(|(label, purpose)| plain(label.to_owned(), AppCommand::AddFrom(purpose)));

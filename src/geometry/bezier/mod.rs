@@ -6,8 +6,8 @@
 //! | `cubic` | a cubic Bezier curve: evaluation, subdivision |
 //! | `surface` | [`Curvature`], area |
 //! | `normal` | the unit normal, also where the cross product of the derivatives vanishes |
-//! | `mesh` | [`QuadMesh`]: patches as a mesh, `.obj` |
-//! | `bpt` | the `.bpt` format: [`read_bpt`], [`write_bpt`] |
+//! | `mesh` | [`QuadMesh`]: patches as a mesh, and its `.obj` |
+//! | `formats/` | files of patches, to and from other programs |
 //! | `unit/` | the unit space of a patch; control nets and rays laid out for SIMD |
 //! | `tree/` | a patch cut into subpatches under a tree of boxes |
 //! | `intersect/` | rays against that tree |
@@ -48,8 +48,8 @@
 //! - \[WSBW01\] I. Wald, P. Slusallek, C. Benthin, M. Wagner, Interactive Rendering with Coherent Ray Tracing, Eurographics
 //!   2001.
 
-mod bpt;
 mod cubic;
+mod formats;
 mod intersect;
 mod mesh;
 mod net;
@@ -59,7 +59,10 @@ mod surface;
 mod tree;
 mod unit;
 
-pub use bpt::{BptError, BptProblem, read_bpt, write_bpt};
+pub use formats::{
+    FormatError, FormatProblem, PatchFormat, read_bpt, read_obj, read_pov, read_rib, write_bpt, write_obj, write_step,
+    write_stl,
+};
 pub use mesh::QuadMesh;
 pub use net::{ControlNet, Derivatives};
 pub use patch::{Patch, PatchHit};

@@ -5,7 +5,7 @@ use super::{
     location::relative_to, problem::suggestion, save, surface_scene::scene_of_patches, validate,
 };
 use crate::file::{folder, read_limited, shortened, write_whole};
-use crate::geometry::bezier::read_bpt;
+use crate::geometry::bezier::PatchFormat;
 use std::{
     fs, io,
     path::{Path, PathBuf},
@@ -24,7 +24,8 @@ pub struct SceneFile {
 }
 
 impl SceneFile {
-    /// Reads a scene file, validates it and checks the files that it names. A `.bpt` file becomes an unsaved scene that shows its patches.
+    /// Reads a scene file, validates it and checks the files that it names. A file of patches
+    /// (`.bpt`, `.obj`, `.pov`, `.rib`) becomes an unsaved scene that shows them.
     ///
     /// # Errors
     ///
@@ -32,18 +33,18 @@ impl SceneFile {
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let bytes =
             read_limited(path, MAX_SCENE_BYTES).map_err(|source| SceneError::Read { file: path.to_owned(), source })?;
-        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("bpt")) {
-            return Self::of_patches(path, &bytes);
+        if let Some(format) = PatchFormat::of(path) {
+            return Self::of_patches(path, format, &bytes);
         }
         let location = Location::Disk(path.to_owned());
         let text = String::from_utf8(bytes).map_err(|e| not_utf8(&e, &location))?;
         Self::parse(&text, location)
     }
 
-    fn of_patches(path: &Path, bytes: &[u8]) -> Result<Self, SceneError> {
+    fn of_patches(path: &Path, format: PatchFormat, bytes: &[u8]) -> Result<Self, SceneError> {
         let failed = |problem: String| SceneError::Patches { file: path.to_owned(), problem };
         let text = str::from_utf8(bytes).map_err(|e| failed(format!("is not UTF-8 text: {e}")))?;
-        let nets = read_bpt(text).map_err(|e| failed(shortened(&e.to_string()).into_owned()))?;
+        let nets = format.read(text).map_err(|e| failed(shortened(&e.to_string()).into_owned()))?;
         let mut points = nets.iter().flat_map(|net| net.points.iter().flatten());
         if points.next().is_some_and(|first| points.all(|point| point == first)) {
             return Err(failed("all control points are the same point, so there is no surface to show".to_owned()));
