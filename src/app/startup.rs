@@ -5,7 +5,7 @@ use super::window::Window;
 use crate::engine::EngineError;
 use crate::scene::{Location, SceneFile};
 use eframe::App;
-use egui::ViewportBuilder;
+use egui::{IconData, ViewportBuilder};
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
@@ -90,6 +90,7 @@ pub(crate) fn open_window(
     let viewport = viewport
         .with_title("patchlight")
         .with_app_id("patchlight")
+        .with_icon(icon())
         .with_min_inner_size([640.0, 400.0])
         .with_drag_and_drop(true);
     let options = eframe::NativeOptions { viewport, ..Default::default() };
@@ -105,6 +106,12 @@ pub(crate) fn open_window(
         )
     };
     quietly_until(&shown, run, |reason| AppError::NoWindow { reason, render: render.clone() })
+}
+
+/// The program's icon, for the title bar and lists of windows.
+fn icon() -> IconData {
+    // Without an icon the window is as useful.
+    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/linux/patchlight.png")).unwrap_or_default()
 }
 
 /// A window at the place of the window before; `None` leaves the place to the desktop.

@@ -96,7 +96,7 @@ fn patches_of_other_programs_are_rendered_and_named_by_scenes() {
         let output = patchlight(dir.path(), &arguments);
         assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
         assert!(fs::metadata(dir.path().join("hill.png")).unwrap().len() > 200);
-        let material = "version = 1\n[[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]\n";
+        let material = "version = 1\n[camera]\nposition = [1, 3, 9]\ntarget = [1, 0, 1]\nfov_y = 30\n[[material]]\nname = \"m\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]\n";
         let object = format!("[[object]]\nname = \"hill\"\ntype = \"bezier\"\nmaterial = \"m\"\nfile = \"{name}\"\n");
         fs::write(dir.path().join("hill.toml"), format!("{material}{object}")).unwrap();
         let file = SceneFile::open(&dir.path().join("hill.toml")).unwrap();

@@ -1,12 +1,12 @@
 //! Properties of the passes: energy, known positions of caustics, independence of threads.
 
-use crate::support::{HEAD, mean, session, world};
+use crate::support::{HEAD, lamp, mean, quad, session, world};
 use glam::DVec3;
-use patchlight::engine::FilmSums;
+use patchlight::engine::{FilmSums, PassMeter, iterate};
 use patchlight::geometry::Primitive;
 use patchlight::math::Rgb;
 use patchlight::transport::{
-    Cancel, DraftSize, PassInput, Photon, Plan, camera_pass, caustic_photon_pass, global_photon_pass,
+    Cancel, Component, DraftSize, PassInput, Photon, Plan, camera_pass, caustic_photon_pass, global_photon_pass,
 };
 use patchlight::world::World;
 use std::sync::Arc;
@@ -46,6 +46,57 @@ fn a_glass_ball_conserves_energy() {
         let ratio = found / iterations as f64 / (expected * intensity);
         // Paths that were reflected 16 times inside are cut; Sobol points cover the rim of the ball to about 0.1 %.
         assert!((ratio - 1.0).abs() < 3e-3, "{ratio} of the light came out");
+    }
+}
+
+/// The light of caustics in blocks of 8 x 8 pixels of a film of 64 x 64, mean of 96 iterations: by light sheets and the photons of what they
+/// leave, or by photons alone.
+fn caustics_of_blocks(world: &World, with_sheets: bool) -> Vec<f64> {
+    let mut plan = Plan::new(world).only(Component::Caustics);
+    plan.caustics.iter_mut().for_each(|caustics| caustics.sheets.fill(with_sheets));
+    let mut blocks = vec![0.0; 64];
+    for i in 4..100 {
+        let input = PassInput::uncancelled(world, &plan, 1, i);
+        let committed = iterate(&input, &PassMeter::default(), |contribution| {
+            for (index, radiance) in contribution.photons.iter().enumerate() {
+                blocks[index / 64 / 8 * 8 + index % 64 / 8] += f64::from(radiance.element_sum()) / (96.0 * 3.0 * 64.0);
+            }
+        });
+        committed.expect("never cancelled");
+    }
+    blocks
+}
+
+/// A mirror beside a floor and a wall of bricks, with a texture and a normal map.
+#[test]
+fn sheets_light_textures_and_relief_as_photons_do() {
+    let file = |name: &str| format!("{}/assets/textures/{name}", env!("CARGO_MANIFEST_DIR"));
+    let textures = format!(
+        "[[texture]]\nname = \"bricks\"\nfile = {:?}\n[[texture]]\nname = \"relief\"\nfile = {:?}\n",
+        file("bricks.png"),
+        file("bricks-normal.png")
+    );
+    let text = format!(
+        "[camera]\nposition = [0, 1.5, 4]\ntarget = [0, -0.6, 0]\nfov_y = 45\n[film]\nwidth = 64\nheight = 64\n{textures}
+        [[material]]\nname = \"wall\"\ntype = \"diffuse\"\nalbedo = {{ texture = \"bricks\", scale = [3, 3] }}
+        normal_map = {{ texture = \"relief\", scale = [3, 3] }}
+        [[material]]\nname = \"silver\"\ntype = \"mirror\"\nreflectance = [0.9, 0.9, 0.9]\n{}",
+        [
+            quad("floor", [[-4.0, -1.0, 4.0], [8.0, 0.0, 0.0], [0.0, 0.0, -6.0]], "wall"),
+            quad("back", [[-4.0, -1.0, -2.0], [8.0, 0.0, 0.0], [0.0, 4.0, 0.0]], "wall"),
+            quad("mirror", [[1.5, -1.0, 1.0], [0.0, 0.0, -1.5], [0.0, 1.5, 0.0]], "silver"),
+            lamp([-0.5, 1.5, 0.8]),
+        ]
+        .concat()
+    );
+    let world = world(&text);
+    let [found, expected] = [true, false].map(|with_sheets| caustics_of_blocks(&world, with_sheets));
+    let brightest = expected.iter().copied().fold(0.0, f64::max);
+    let (sum, expected_sum) = (found.iter().sum::<f64>(), expected.iter().sum::<f64>());
+    assert!((sum / expected_sum - 1.0).abs() < 0.01, "{sum} instead of {expected_sum}");
+    for (block, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        let most = 0.02 * expected + 0.005 * brightest;
+        assert!((found - expected).abs() < most, "{found} instead of {expected} in block {block}");
     }
 }
 
@@ -123,7 +174,6 @@ fn cardioid_cusp() {
 fn splats(lamp: f64, scattering: &str) -> usize {
     let world = world(&format!(
         "[camera]\nposition = [0, 2, 6]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 64\nheight = 64
-        [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5
         [[material]]\nname = \"w\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
         [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.5\nmaterial = \"glass\"
         [[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = {lamp}\nradiance = [1, 1, 1]\n{scattering}"
