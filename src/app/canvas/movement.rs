@@ -8,6 +8,9 @@ use crate::app::document::{Edit, Handle};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeSet;
 
+/// Rounding errors of a position, over its distance from the origin: of a few operations in double precision, and far below what can be seen.
+const ROUNDING: f64 = 1e-12;
+
 /// The handles that a drag moves, and how they follow the pointer.
 #[derive(Clone, Debug)]
 pub(crate) struct Movement {
@@ -104,23 +107,31 @@ impl Movement {
 
     /// The edit that brings the handles to `target`, and control points within `radius` after them; `None` where they are there.
     pub(crate) fn edit(&self, stage: &Stage<'_>, target: DVec3, radius: Option<f64>) -> Option<Edit> {
-        let by = target - self.position(stage)?;
-        if !by.is_finite() {
+        let present = self.position(stage)?;
+        if !(target - present).is_finite() {
             return None;
         }
+        let way = way(present, target);
         match radius.filter(|_| self.moves_points()) {
-            None => (by != DVec3::ZERO).then(|| Edit::Move(self.moved.clone(), by)),
+            None => way.map(|way| Edit::Move(self.moved.clone(), way)),
             Some(radius) => {
                 let following = self.followers.iter().filter_map(|follower| {
                     let place = follower.start + weight(follower.distance, radius) * (target - self.drag.start);
-                    Some((follower.handle, place - follower.handle.position(stage.document.scene())?))
+                    Some((follower.handle, self::way(follower.handle.position(stage.document.scene())?, place)?))
                 });
-                let all = self.moved.iter().map(|handle| (*handle, by)).chain(following);
-                let moving: Vec<_> = all.filter(|(_, way)| *way != DVec3::ZERO && way.is_finite()).collect();
+                let moved = self.moved.iter().filter_map(|handle| Some((*handle, way?)));
+                let moving: Vec<_> = moved.chain(following).collect();
                 (!moving.is_empty()).then_some(Edit::MoveEach(moving))
             }
         }
     }
+}
+
+/// The way from one position to another; `None` where it is no longer than rounding errors: a point of an object that is turned never comes
+/// exactly where it should, and each try would begin the picture anew while the pointer rests.
+fn way(from: DVec3, to: DVec3) -> Option<DVec3> {
+    let way = to - from;
+    (way.is_finite() && way.length() > ROUNDING * (from.length() + to.length())).then_some(way)
 }
 
 /// The control points of the object beside the moved ones, and the object's extent; none for lights and whole objects.
@@ -139,4 +150,32 @@ fn followers(stage: &Stage<'_>, moved: &[Handle]) -> (Vec<Follower>, f64) {
         Follower { handle, start, distance }
     });
     (others.collect(), (high - low).max_element())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Transform;
+
+    /// A point of a turned and scaled object ends its way to a target, whatever the last bits do.
+    #[test]
+    fn a_point_of_a_turned_object_arrives() {
+        let transform = Transform {
+            translate: DVec3::new(0.3, -1.7, 2.9),
+            rotate: DVec3::new(17.0, 33.0, -71.0),
+            scale: DVec3::splat(0.7),
+        };
+        let world_from_object = transform.world_from_object();
+        let mut point = DVec3::new(0.1, 0.2, 0.3);
+        for k in 0..200 {
+            let target = DVec3::new(0.7 + 0.013 * f64::from(k), 0.31, -1.1);
+            let ways = (0..4).filter(|_| {
+                let way = way(world_from_object.transform_point3(point), target);
+                point += way.map_or(DVec3::ZERO, |way| world_from_object.inverse().transform_vector3(way));
+                way.is_some()
+            });
+            assert!(ways.count() <= 2, "the point is still on its way to {target}");
+        }
+        assert!(way(DVec3::ONE, DVec3::ONE + DVec3::X * 1e-9).is_some(), "what can be seen is a way");
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::grid::{Between, around};
 use super::image::Draft;
+use crate::transport::FirstHit;
 use crate::world::Camera;
 use glam::DVec2;
 
@@ -20,6 +21,8 @@ pub(super) struct Reprojection<'a> {
     /// The draft before the move.
     draft: &'a Draft,
     inverse_depths: Inverse,
+    /// What the pixels of the draft after the move meet first.
+    after_hits: &'a [FirstHit],
     /// For each pixel of the draft after the move, whether a matte surface is all around it.
     is_matte: Vec<bool>,
 }
@@ -60,11 +63,11 @@ impl<'a> Reprojection<'a> {
         let fits = |index: usize| drafts[1].first_hits[index].is_matte && inverse_depths.is_smooth(index);
         let size = drafts[1].pixel_size();
         let is_matte = (0..drafts[1].first_hits.len()).map(|index| around(size, index).all(fits)).collect();
-        Self { before, after, draft: drafts[0], inverse_depths, is_matte }
+        Self { before, after, draft: drafts[0], after_hits: &drafts[1].first_hits, inverse_depths, is_matte }
     }
 
     /// The film position before the move of the point that the camera now sees at a film position; `None` where another surface may have
-    /// hidden it, or its look depends on the place from which it is seen.
+    /// hidden it, it was seen from its other side, or its look depends on the place from which it is seen.
     pub(super) fn before(&self, x: f32, y: f32) -> Option<[f32; 2]> {
         let scale = |position: f32, of: u32, to: u32| position * to as f32 / of as f32;
         let on_draft = |x: f32, y: f32, [width, height]: [u32; 2]| {
@@ -84,8 +87,11 @@ impl<'a> Reprojection<'a> {
         let distance = self.before.position.distance(point) as f32;
         let (column, row) = on_draft(seen.x, seen.y, self.draft.pixel_size());
         let between = Between::new(self.draft.pixel_size(), column, row);
+        let surface = |hit: &FirstHit| hit.facet.map(|facet| facet.tag);
+        let seen_now = surface(&self.after_hits[index as usize]);
+        let same_side = between.weights().iter().all(|(pixel, _)| surface(&self.draft.first_hits[*pixel]) == seen_now);
         let then = 1.0 / between.mean(|index| 1.0 / self.draft.first_hits[index].depth);
-        (inside && (then - distance).abs() <= SAME_DEPTH * distance).then_some(seen.into())
+        (inside && same_side && (then - distance).abs() <= SAME_DEPTH * distance).then_some(seen.into())
     }
 }
 
@@ -94,8 +100,8 @@ mod tests {
     use super::*;
     use crate::math::Rgb;
     use crate::scene;
-    use crate::transport::FirstHit;
-    use glam::DVec3;
+    use crate::transport::Facet;
+    use glam::{DVec3, Vec3};
 
     /// Pixels along a side of the film, and of a draft.
     const FILM: u32 = 64;
@@ -145,6 +151,10 @@ mod tests {
         assert!(!found([&draft(&before, |_| 2.0), &wall(&after)]), "a screen hid the wall");
         let edge = draft(&after, |x| if x < 0.3 { 0.0 } else { -1.0 });
         assert!(!found([&wall(&before), &edge]));
+        let other_side = Facet { normal: Vec3::Z, albedo: Rgb::ONE, tag: 8, position: Vec3::ZERO };
+        let mut from_behind = wall(&after);
+        from_behind.first_hits.iter_mut().for_each(|hit| hit.facet = Some(other_side));
+        assert!(!found([&wall(&before), &from_behind]), "the other side has other light");
         let mirror = Draft {
             first_hits: wall(&after).first_hits.iter().map(|hit| FirstHit { is_matte: false, ..*hit }).collect(),
             ..wall(&after)
