@@ -64,7 +64,7 @@ impl PatchFormat {
     ///
     /// # Errors
     ///
-    /// For a text that is none of this format, or holds no bicubic Bezier patches; the error names the line.
+    /// For a text that breaks the rules of the format, or holds no bicubic Bezier patches; the error names the line.
     pub fn read(self, text: &str) -> Result<Vec<ControlNet>, FormatError> {
         match self {
             Self::Bpt => read_bpt(text),
