@@ -7,7 +7,7 @@ use super::grid::{Between, around, filled, middle};
 use super::image::Draft;
 use crate::film::LinearImage;
 use crate::math::Rgb;
-use crate::transport::FirstHit;
+use crate::transport::{Facet, FirstHit};
 
 /// Width of a pixel of the detail over that of a pixel of its draft, at most, as one over this: nine first rays take about the time of one
 /// pixel of a draft.
@@ -29,6 +29,22 @@ pub(in crate::engine) struct Detail {
 }
 
 impl Detail {
+    /// What is met at a position, given the pixel there: the albedo is the mean between the pixels of the same surface, because a texture of
+    /// blocks is harder to recognise than a blurred one.
+    fn at(&self, [x, y]: [f32; 2], pixel: usize) -> FirstHit {
+        let hit = self.first_hits[pixel];
+        let mean = |own: Facet| {
+            let (mut sum, mut weights) = (LEAST_WEIGHT * own.albedo, LEAST_WEIGHT);
+            for (index, weight) in Between::new(self.size, x, y).weights() {
+                if let Some(facet) = self.first_hits[index].facet.filter(|facet| facet.tag == own.tag) {
+                    (sum, weights) = (sum + weight * facet.albedo, weights + weight);
+                }
+            }
+            Facet { albedo: sum / weights, ..own }
+        };
+        FirstHit { facet: hit.facet.map(mean), ..hit }
+    }
+
     /// The coarseness of the detail for a draft of this coarseness; `None` if the draft has all pixels.
     pub(in crate::engine) fn coarseness(of_draft: u32) -> Option<u32> {
         (of_draft > 1).then(|| of_draft.div_ceil(FINER))
@@ -70,7 +86,7 @@ impl<'a> Upsampling<'a> {
         let nearest = |[column, row]: [f32; 2], [width, height]: [u32; 2]| {
             ((row as u32).min(height - 1) * width + (column as u32).min(width - 1)) as usize
         };
-        let seen = &detail.first_hits[nearest(on(detail.size), detail.size)];
+        let seen = &detail.at(on(detail.size), nearest(on(detail.size), detail.size));
         self.light(seen, between.weights()).unwrap_or_else(|| {
             // The middles of the nearest pixels may all lie on other surfaces.
             let near = around(size, nearest([column, row], size)).map(|index| (index, LEAST_WEIGHT));
@@ -108,7 +124,6 @@ fn likeness(a: &FirstHit, b: &FirstHit) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transport::Facet;
     use glam::Vec3;
 
     /// Pixels of the film along a side; each of the draft is four wide.
