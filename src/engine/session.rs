@@ -231,11 +231,7 @@ impl Session {
         let Self { world, plan, seed, draft_light, .. } = self;
         let guides = self.smooths_drafts;
         let of_all_pixels = plan.draft(DraftSize { coarseness: 1, ..size });
-        let whole = plan.draft(size);
-        let plan = match chosen {
-            Some(chosen) => whole.of_pixels(chosen),
-            None => whole,
-        };
+        let plan = plan_of_draft(plan, size, chosen);
         let input = |plan| PassInput { world, plan, seed: *seed, iteration: 1, guides, cancel };
         if draft_light.as_ref().is_none_or(|(thinning, _)| *thinning != size.thinning) {
             *draft_light = Some((size.thinning, trace_light(&input(&of_all_pixels), &meter)?));
@@ -260,11 +256,7 @@ impl Session {
     pub(super) fn detail(&self, coarseness: u32, chosen: Option<Arc<[bool]>>, cancel: Cancel) -> Option<Detail> {
         let start = Instant::now();
         let Self { world, plan, seed, .. } = self;
-        let whole = plan.draft(DraftSize { coarseness, thinning: 1 });
-        let plan = match chosen {
-            Some(chosen) => whole.of_pixels(chosen),
-            None => whole,
-        };
+        let plan = plan_of_draft(plan, DraftSize { coarseness, thinning: 1 }, chosen);
         let input = PassInput { world, plan: &plan, seed: *seed, iteration: 1, guides: false, cancel };
         let bands: Vec<_> = plan.bands(1).into_par_iter().map(|rows| g_buffer(&input, &rows)).collect::<Option<_>>()?;
         let size = [plan.camera.width, plan.camera.height];
@@ -311,6 +303,15 @@ impl Session {
     fn frame_of(&self, generation: u64, image: Arc<LinearImage>, iteration: u64, stats: Stats) -> Frame {
         let plan = self.summary.clone();
         Frame { generation, draft: false, iteration, image, preview: None, smoothed: false, stats, plan }
+    }
+}
+
+/// The plan of a draft of this size, of the chosen pixels only, if any.
+fn plan_of_draft(plan: &Plan, size: DraftSize, chosen: Option<Arc<[bool]>>) -> Plan {
+    let whole = plan.draft(size);
+    match chosen {
+        Some(chosen) => whole.of_pixels(chosen),
+        None => whole,
     }
 }
 
