@@ -174,6 +174,7 @@ fn cardioid_cusp() {
 fn splats(lamp: f64, scattering: &str) -> usize {
     let world = world(&format!(
         "[camera]\nposition = [0, 2, 6]\ntarget = [0, 0, 0]\nfov_y = 40\n[film]\nwidth = 64\nheight = 64
+        [[material]]\nname = \"glass\"\ntype = \"glass\"\nior = 1.5
         [[material]]\nname = \"w\"\ntype = \"diffuse\"\nalbedo = [0.5, 0.5, 0.5]
         [[object]]\nname = \"ball\"\ntype = \"sphere\"\ncenter = [0, 1, 0]\nradius = 0.5\nmaterial = \"glass\"
         [[light]]\nname = \"l\"\ntype = \"sphere\"\ncenter = [0, 3, 0]\nradius = {lamp}\nradiance = [1, 1, 1]\n{scattering}"
