@@ -42,7 +42,7 @@ mod stand_in;
 mod worker;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointFile};
-pub use draft::Draft;
+pub use draft::{Draft, GBuffer};
 pub use film_part::FilmPart;
 pub use film_sums::{FilmSums, MOST_ITERATIONS};
 pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, SheetShare, Stats};

@@ -1,7 +1,7 @@
 //! The rendering of one scene.
 
 use super::display::Interreflection;
-use super::draft::{Detail, Draft};
+use super::draft::{Draft, GBuffer};
 use super::film_part::FilmPart;
 use super::film_sums::FilmSums;
 use super::frame::{Frame, PlanSummary, Stats};
@@ -41,9 +41,9 @@ pub enum SessionError {
 /// Iterations after which a picture without any light counts as black: a relative error has no meaning there.
 pub const BLACK_ITERATIONS: u64 = 64;
 
-/// Most memory for each pixel, bytes: film sums, statistics, an iteration with lobe samples, the interreflection kept apart, a frame and the
-/// encoded file.
-const BYTES_PER_PIXEL: u64 = 520;
+/// Most memory for each pixel, bytes: film sums, statistics, an iteration with lobe samples, the interreflection kept apart, what the pixels
+/// show, a frame and the encoded file.
+const BYTES_PER_PIXEL: u64 = 620;
 
 /// Checks the memory for the film beforehand: the system ends a program that runs out of memory.
 fn check_memory(camera: &Camera) -> Result<(), SessionError> {
@@ -65,6 +65,8 @@ pub struct Session {
     draft: Option<Draft>,
     /// The light of the last draft, and the thinning of its photons.
     draft_light: Option<(u32, Light)>,
+    /// What the pixels of the film show, once that is known.
+    g_buffer: Option<Arc<GBuffer>>,
     /// Whether iterations add to `interreflection`.
     keeps_interreflection: bool,
     /// Whether drafts come with less noise in their interreflection, too.
@@ -96,6 +98,7 @@ impl Session {
             part,
             draft: None,
             draft_light: None,
+            g_buffer: None,
             keeps_interreflection: false,
             smooths_drafts: false,
             interreflection: None,
@@ -166,7 +169,7 @@ impl Session {
     /// Renders the next iteration and commits it to the film; `None` when cancelled, which does not change the film.
     pub fn advance(&mut self, cancel: Cancel) -> Option<()> {
         let start = Instant::now();
-        let Self { world, plan, part, seed, interreflection, keeps_interreflection, .. } = self;
+        let Self { world, plan, part, seed, interreflection, keeps_interreflection, g_buffer, .. } = self;
         let iteration = part.rendered + 1;
         let meter = PassMeter::default();
         let guides = *keeps_interreflection && (iteration == 1 || interreflection.is_some());
@@ -176,6 +179,9 @@ impl Session {
                 let size = [plan.camera.width, plan.camera.height];
                 let sums = interreflection.get_or_insert_with(|| Interreflection::new(size, contribution));
                 sums.commit(plan.weight(iteration) as f32, contribution);
+                if let Some(of_film) = GBuffer::of_pass(size, contribution) {
+                    *g_buffer = Some(Arc::new(of_film));
+                }
             }
             part.commit(plan, contribution)
         });
@@ -229,38 +235,47 @@ impl Session {
         let start = Instant::now();
         let meter = PassMeter::default();
         let Self { world, plan, seed, draft_light, .. } = self;
-        let guides = self.smooths_drafts;
+        let smooths = self.smooths_drafts;
         let of_all_pixels = plan.draft(DraftSize { coarseness: 1, ..size });
         let plan = plan_of_draft(plan, size, chosen);
-        let input = |plan| PassInput { world, plan, seed: *seed, iteration: 1, guides, cancel };
+        let input = |plan| PassInput { world, plan, seed: *seed, iteration: 1, guides: true, cancel };
         if draft_light.as_ref().is_none_or(|(thinning, _)| *thinning != size.thinning) {
             *draft_light = Some((size.thinning, trace_light(&input(&of_all_pixels), &meter)?));
         }
         let (_, light) = draft_light.as_ref()?;
         let (width, height) = (plan.camera.width, plan.camera.height);
-        let (image, smoothed, sharp, first_hits) = see(&input(&plan), light, &meter, |contribution| {
-            let Contribution { photons, samples, interreflection, first_hits, .. } = contribution;
+        let (image, smoothed, sharp, g_buffer) = see(&input(&plan), light, &meter, |contribution| {
+            let Contribution { photons, samples, interreflection, .. } = contribution;
             let pixels = photons.iter().zip(samples).map(|(photons, samples)| *photons + samples.mean());
             let pixels: Vec<Rgb> = pixels.collect();
             let sharp = pixels.iter().zip(interreflection).map(|(all, smooth)| *all - *smooth).collect();
             let image = LinearImage::positive_part(width, height, pixels);
-            let smoothed = guides.then(|| Arc::new(smoothed_draft(&image, contribution)));
-            (image, smoothed, sharp, first_hits.clone())
+            let smoothed = smooths.then(|| Arc::new(smoothed_draft(&image, contribution)));
+            (image, smoothed, sharp, GBuffer::of_pass([width, height], contribution))
         })?;
         let Work { counters, seconds } = meter.work();
         let stats = Stats::of_work(counters, seconds, start.elapsed().as_secs_f64());
-        Some(Draft { size, image: Arc::new(image), smoothed, sharp, first_hits, stats })
+        Some(Draft { size, image: Arc::new(image), smoothed, sharp, g_buffer: g_buffer?, stats })
+    }
+
+    /// Takes over what the pixels of the film show from a session whose scene shows the same in other light.
+    pub(super) fn showing_the_same(mut self, as_session: &Self) -> Self {
+        self.g_buffer = as_session.g_buffer.clone();
+        self
+    }
+
+    /// What the pixels of the film show, as far as that is known without more rays.
+    pub(super) fn g_buffer(&self) -> Option<Arc<GBuffer>> {
+        self.g_buffer.clone()
     }
 
     /// What the first rays of a draft of this coarseness meet, in the chosen pixels only, if any; `None` when cancelled.
-    pub(super) fn detail(&self, coarseness: u32, chosen: Option<Arc<[bool]>>, cancel: Cancel) -> Option<Detail> {
-        let start = Instant::now();
+    pub(super) fn first_hits(&self, coarseness: u32, chosen: Option<Arc<[bool]>>, cancel: Cancel) -> Option<GBuffer> {
         let Self { world, plan, seed, .. } = self;
         let plan = plan_of_draft(plan, DraftSize { coarseness, thinning: 1 }, chosen);
         let input = PassInput { world, plan: &plan, seed: *seed, iteration: 1, guides: false, cancel };
         let bands: Vec<_> = plan.bands(1).into_par_iter().map(|rows| g_buffer(&input, &rows)).collect::<Option<_>>()?;
-        let size = [plan.camera.width, plan.camera.height];
-        Some(Detail { size, first_hits: bands.concat(), seconds: start.elapsed().as_secs_f64() })
+        Some(GBuffer::of_first_hits([plan.camera.width, plan.camera.height], bands.concat()))
     }
 
     /// A draft of this size with pixels over the whole film; kept for the next call. Never cancelled.

@@ -1,6 +1,6 @@
 //! The worker thread: prepares the newest scene, drafts it, and renders iterations until a newer scene arrives.
 
-use super::draft::{Detail, Draft, DraftPace, Preview, Upsampling};
+use super::draft::{Draft, DraftPace, GBuffer, Preview, Upsampling, detail_coarseness, shows_the_same};
 use super::frame::Frame;
 use super::messages::Status;
 use super::session::{Session, SessionError};
@@ -144,6 +144,9 @@ impl Worker {
         let known = previous.as_ref().map(|(_, session)| session);
         let mut session = self.pool.install(|| Session::prepare(&scene, self.seed, known))?;
         session = session.keeping_interreflection().smoothing_drafts(self.smooth);
+        if let Some((_, known)) = previous.as_ref().filter(|(before, _)| shows_the_same(&before.scene, &scene.scene)) {
+            session = session.showing_the_same(known);
+        }
         self.keep_stand_in(previous, &scene, &session);
         if let Some(frame) = self.first_picture(&mut session, generation) {
             self.shared.publish(frame);
@@ -170,11 +173,12 @@ impl Worker {
             pool.install(|| session.draft(size, Some(preview.doubtful_pixels(size.coarseness)), Cancel::NEVER))
         });
         let shown = finer.as_ref().unwrap_or(&draft);
-        let detail = pool.install(|| detail_of_changes(session, &preview, shown, Cancel::NEVER));
+        let begun = Instant::now();
+        let detail = pool.install(|| detail(session, shown, Some(&preview), Cancel::NEVER));
         if let Some(finer) = &finer {
-            drafts.changes_took(finer, detail.as_ref(), changed);
+            drafts.changes_took(finer, begun.elapsed().as_secs_f64(), changed);
         }
-        let image = pool.install(|| preview.with_draft(shown, detail.as_ref()));
+        let image = pool.install(|| preview.with_draft(shown, detail.as_deref()));
         self.preview = Some(preview);
         Some(session.frame_of_draft(generation, Arc::new(image), None, shown.stats))
     }
@@ -209,9 +213,10 @@ impl Worker {
             if let Some(draft) = draft {
                 let frame = self.pool.install(|| match &self.preview {
                     Some(preview) => {
-                        let detail = detail_of_changes(session, preview, &draft, cancel);
-                        self.drafts.changes_took(&draft, detail.as_ref(), preview.doubtful());
-                        let image = preview.with_draft(&draft, detail.as_ref());
+                        let begun = Instant::now();
+                        let detail = detail(session, &draft, Some(preview), cancel);
+                        self.drafts.changes_took(&draft, begun.elapsed().as_secs_f64(), preview.doubtful());
+                        let image = preview.with_draft(&draft, detail.as_deref());
                         session.frame_of_draft(generation, Arc::new(image), None, draft.stats)
                     }
                     None => frame_of_draft(session, generation, &draft, cancel),
@@ -260,18 +265,22 @@ impl Worker {
 /// The frame of a draft, with the pixels of the film; with those of the draft when cancelled.
 fn frame_of_draft(session: &Session, generation: u64, draft: &Draft, cancel: Cancel) -> Frame {
     let Camera { width, height, .. } = session.camera();
-    let detail = Detail::coarseness(draft.size.coarseness).and_then(|finer| session.detail(finer, None, cancel));
-    let picture = |image: &Arc<LinearImage>| match &detail {
+    let detail = detail(session, draft, None, cancel);
+    let picture = |image: &Arc<LinearImage>| match detail.as_deref() {
         Some(detail) => Arc::new(Upsampling::new(draft, Some(detail), image, [width, height]).picture()),
         None => image.clone(),
     };
     session.frame_of_draft(generation, picture(&draft.image), draft.smoothed.as_ref().map(picture), draft.stats)
 }
 
-/// The detail of a draft of what an edit has changed; `None` where the draft has all pixels, and when cancelled.
-fn detail_of_changes(session: &Session, preview: &Preview, draft: &Draft, cancel: Cancel) -> Option<Detail> {
-    let coarseness = Detail::coarseness(draft.size.coarseness)?;
-    session.detail(coarseness, Some(preview.doubtful_pixels(coarseness)), cancel)
+/// What the pixels of a finer grid than the draft's show, at least where the preview lacks them, if there is one; `None` where the draft has all
+/// pixels, and when cancelled.
+fn detail(session: &Session, draft: &Draft, preview: Option<&Preview>, cancel: Cancel) -> Option<Arc<GBuffer>> {
+    let coarseness = detail_coarseness(draft.size.coarseness)?;
+    session.g_buffer().or_else(|| {
+        let chosen = preview.map(|preview| preview.doubtful_pixels(coarseness));
+        session.first_hits(coarseness, chosen, cancel).map(Arc::new)
+    })
 }
 
 /// The message of a panic.

@@ -260,8 +260,8 @@ fn a_draft_of_some_pixels_has_their_direct_light_and_leaves_out_the_others() {
         let expected = if *is_chosen { whole.sharp[index] } else { Rgb::ZERO };
         assert!((some.sharp[index] - expected).length() <= 1e-4 * expected.length(), "{index}");
         assert_eq!(
-            some.first_hits[index].depth,
-            if *is_chosen { whole.first_hits[index].depth } else { f32::INFINITY }
+            some.g_buffer.first_hits[index].depth,
+            if *is_chosen { whole.g_buffer.first_hits[index].depth } else { f32::INFINITY }
         );
     }
 }

@@ -60,7 +60,7 @@ impl Substitute {
 impl Change {
     /// The change from one draft to the other.
     pub(super) fn between(before: &Draft, after: &Draft) -> Self {
-        let size = after.pixel_size();
+        let size = after.g_buffer.size;
         let floor = FLOOR * mean(&before.image).max(f32::MIN_POSITIVE);
         let cells =
             (0..after.image.pixels.len()).map(|index| cell(before, after, floor, around(size, index))).collect();
@@ -94,7 +94,7 @@ fn cell(before: &Draft, after: &Draft, floor: f32, around: impl Iterator<Item = 
         let change = (sharp[1] - sharp[0]) / radiance[0].element_sum();
         (least, most) = (least.min(change), most.max(change));
         sums = [sums[0] + radiance[0], sums[1] + radiance[1]];
-        let [a, b] = [before, after].map(|draft| draft.first_hits[index].depth);
+        let [a, b] = [before, after].map(|draft| draft.g_buffer.first_hits[index].depth);
         same &= a == b || (a - b).abs() <= SAME_DEPTH * a.min(b);
     }
     let ratio = sums[1] / sums[0];
@@ -163,7 +163,8 @@ mod tests {
     #[test]
     fn another_surface_is_not_trusted_nor_light_on_what_was_dark() {
         let farther = vec![FirstHit { depth: 2.02, is_matte: true, facet: None }; (SIDE * SIDE) as usize];
-        let moved = Draft { first_hits: farther, ..draft(1.0, texture) };
+        let mut moved = draft(1.0, texture);
+        moved.g_buffer.first_hits = farther;
         assert_eq!(applied(&Change::between(&draft(1.0, texture), &moved), Rgb::ONE, [4, 4]).trust, 0.0);
         let lit = |column: u32| if column < 4 { 0.0 } else { 1.0 };
         let change = Change::between(&draft(0.0, lit), &draft(0.0, |_| 1.0));

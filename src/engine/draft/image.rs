@@ -1,9 +1,12 @@
 //! A draft: a picture of few pixels, made at bounded cost.
 
+use super::g_buffer::GBuffer;
 use crate::engine::frame::Stats;
 use crate::film::LinearImage;
 use crate::math::Rgb;
-use crate::transport::{DraftSize, FirstHit};
+use crate::transport::DraftSize;
+#[cfg(test)]
+use crate::transport::FirstHit;
 use std::sync::Arc;
 
 /// A picture with every n-th pixel each way.
@@ -17,8 +20,8 @@ pub struct Draft {
     pub smoothed: Option<Arc<LinearImage>>,
     /// The part of each pixel that is no interreflection: its edges are sharp.
     pub sharp: Vec<Rgb>,
-    /// Where the first ray of each pixel ended.
-    pub first_hits: Vec<FirstHit>,
+    /// What the pixels show.
+    pub g_buffer: GBuffer,
     /// Work done.
     pub stats: Stats,
 }
@@ -27,11 +30,6 @@ impl Draft {
     /// The picture for a screen.
     pub(in crate::engine) fn shown(&self) -> &Arc<LinearImage> {
         self.smoothed.as_ref().unwrap_or(&self.image)
-    }
-
-    /// Pixels per row, and rows.
-    pub(super) fn pixel_size(&self) -> [u32; 2] {
-        [self.image.width, self.image.height]
     }
 }
 
@@ -44,11 +42,11 @@ impl Draft {
         let image = LinearImage { width, height: pixels.len() as u32 / width, pixels };
         Self {
             size: DraftSize::FULL,
-            image: Arc::new(image),
             smoothed: None,
             sharp,
-            first_hits,
+            g_buffer: GBuffer::of_first_hits([image.width, image.height], first_hits),
             stats: Stats::default(),
+            image: Arc::new(image),
         }
     }
 }

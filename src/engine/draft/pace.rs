@@ -1,7 +1,6 @@
 //! How coarse drafts are: the first picture takes the time of a frame, finer ones follow until the first iteration is due.
 
 use super::image::Draft;
-use super::upsampling::Detail;
 use crate::transport::DraftSize;
 
 /// Time that the first picture should take, seconds: a frame of 30 Hz, less preparation and display.
@@ -132,11 +131,11 @@ impl DraftPace {
         (changed > 0 && self.next.is_some()).then_some(next)
     }
 
-    /// Takes the time of a draft of `changed` pixels of the film, and of its detail, into account.
-    pub(in crate::engine) fn changes_took(&mut self, draft: &Draft, detail: Option<&Detail>, changed: usize) {
+    /// Takes the time of a draft of `changed` pixels of the film into account, and of its detail, seconds.
+    pub(in crate::engine) fn changes_took(&mut self, draft: &Draft, detail: f64, changed: usize) {
         let coarseness = f64::from(draft.size.coarseness);
         let passes = draft.stats.passes;
-        let seconds = passes.camera + passes.gather + detail.map_or(0.0, |detail| detail.seconds);
+        let seconds = passes.camera + passes.gather + detail;
         let now = seconds * coarseness * coarseness / changed.max(1) as f64;
         self.changed = Some(self.changed.map_or(now, |before| 0.5 * (before + now)));
         self.next_took(draft.size, draft.stats.seconds);
@@ -229,7 +228,7 @@ mod tests {
         let mut dear = draft(before, 20.0);
         for _ in 0..8 {
             pace.first_took(&first);
-            pace.changes_took(&dear, None, few);
+            pace.changes_took(&dear, 0.0, few);
             dear = draft(pace.of_changes(few, 0.0).unwrap_or(before), 20.0);
         }
         pace.first_took(&first);
@@ -241,8 +240,7 @@ mod tests {
     fn the_time_of_the_detail_counts_too() {
         let time_of = |seconds| {
             let (mut pace, first) = settled(true);
-            let detail = Detail { size: [1; 2], first_hits: Vec::new(), seconds };
-            pace.changes_took(&first, Some(&detail), FILM);
+            pace.changes_took(&first, seconds, FILM);
             pace.changed
         };
         assert!(time_of(0.1) > time_of(0.0), "{:?} {:?}", time_of(0.1), time_of(0.0));

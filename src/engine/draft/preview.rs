@@ -1,10 +1,11 @@
 //! A picture for the screen: the draft of a scene, and the picture before the edit where that stands in for it.
 
 use super::change::{Change, Substitute};
+use super::g_buffer::GBuffer;
 use super::grid::{filled, sample};
 use super::image::Draft;
 use super::reprojection::Reprojection;
-use super::upsampling::{Detail, Upsampling};
+use super::upsampling::Upsampling;
 use crate::film::LinearImage;
 use crate::world::Camera;
 use std::sync::Arc;
@@ -78,7 +79,7 @@ impl Preview {
     }
 
     /// The picture with the doubtful pixels of a draft of the scene after the edit, given its detail there, if it has any.
-    pub(in crate::engine) fn with_draft(&self, draft: &Draft, detail: Option<&Detail>) -> LinearImage {
+    pub(in crate::engine) fn with_draft(&self, draft: &Draft, detail: Option<&GBuffer>) -> LinearImage {
         let drafted = Upsampling::new(draft, detail, draft.shown(), self.size);
         let (drafted, [width, height]) = (&drafted, self.size);
         let pixels = filled(self.size, |y| {

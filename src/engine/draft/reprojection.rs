@@ -35,7 +35,10 @@ struct Inverse {
 
 impl Inverse {
     fn of(draft: &Draft) -> Self {
-        Self { size: draft.pixel_size(), depths: draft.first_hits.iter().map(|hit| 1.0 / hit.depth).collect() }
+        Self {
+            size: draft.g_buffer.size,
+            depths: draft.g_buffer.first_hits.iter().map(|hit| 1.0 / hit.depth).collect(),
+        }
     }
 
     fn at(&self, x: f32, y: f32) -> f32 {
@@ -60,10 +63,10 @@ impl<'a> Reprojection<'a> {
     /// The move between two cameras, of each of which there is a draft.
     pub(super) fn new([before, after]: [Camera; 2], drafts: [&'a Draft; 2]) -> Self {
         let inverse_depths = Inverse::of(drafts[1]);
-        let fits = |index: usize| drafts[1].first_hits[index].is_matte && inverse_depths.is_smooth(index);
-        let size = drafts[1].pixel_size();
-        let is_matte = (0..drafts[1].first_hits.len()).map(|index| around(size, index).all(fits)).collect();
-        Self { before, after, draft: drafts[0], after_hits: &drafts[1].first_hits, inverse_depths, is_matte }
+        let fits = |index: usize| drafts[1].g_buffer.first_hits[index].is_matte && inverse_depths.is_smooth(index);
+        let size = drafts[1].g_buffer.size;
+        let is_matte = (0..drafts[1].g_buffer.first_hits.len()).map(|index| around(size, index).all(fits)).collect();
+        Self { before, after, draft: drafts[0], after_hits: &drafts[1].g_buffer.first_hits, inverse_depths, is_matte }
     }
 
     /// The film position before the move of the point that the camera now sees at a film position; `None` where another surface may have
@@ -85,12 +88,13 @@ impl<'a> Reprojection<'a> {
         let inside =
             seen.x >= 0.0 && seen.y >= 0.0 && seen.x < self.before.width as f32 && seen.y < self.before.height as f32;
         let distance = self.before.position.distance(point) as f32;
-        let (column, row) = on_draft(seen.x, seen.y, self.draft.pixel_size());
-        let between = Between::new(self.draft.pixel_size(), column, row);
+        let (column, row) = on_draft(seen.x, seen.y, self.draft.g_buffer.size);
+        let between = Between::new(self.draft.g_buffer.size, column, row);
         let surface = |hit: &FirstHit| hit.facet.map(|facet| facet.tag);
         let seen_now = surface(&self.after_hits[index as usize]);
-        let same_side = between.weights().iter().all(|(pixel, _)| surface(&self.draft.first_hits[*pixel]) == seen_now);
-        let then = 1.0 / between.mean(|index| 1.0 / self.draft.first_hits[index].depth);
+        let same_side =
+            between.weights().iter().all(|(pixel, _)| surface(&self.draft.g_buffer.first_hits[*pixel]) == seen_now);
+        let then = 1.0 / between.mean(|index| 1.0 / self.draft.g_buffer.first_hits[index].depth);
         (inside && same_side && (then - distance).abs() <= SAME_DEPTH * distance).then_some(seen.into())
     }
 }
@@ -120,7 +124,7 @@ mod tests {
     fn draft(camera: &Camera, z: impl Fn(f64) -> f64) -> Draft {
         let camera = camera.resized(SIDE, SIDE);
         let mut draft = Draft::of_pixels(SIDE, vec![Rgb::ONE; (SIDE * SIDE) as usize], 1.0, 1.0);
-        for (index, hit) in (0..).zip(&mut draft.first_hits) {
+        for (index, hit) in (0..).zip(&mut draft.g_buffer.first_hits) {
             let ray = camera.ray(DVec2::new(f64::from(index % SIDE), f64::from(index / SIDE)) + 0.5);
             let depth = |z: f64| (z - ray.origin.z) / ray.direction.z;
             *hit = FirstHit { depth: depth(z(ray.at(depth(0.0)).x)) as f32, is_matte: true, facet: None };
@@ -153,12 +157,10 @@ mod tests {
         assert!(!found([&wall(&before), &edge]));
         let other_side = Facet { normal: Vec3::Z, albedo: Rgb::ONE, tag: 8, position: Vec3::ZERO };
         let mut from_behind = wall(&after);
-        from_behind.first_hits.iter_mut().for_each(|hit| hit.facet = Some(other_side));
+        from_behind.g_buffer.first_hits.iter_mut().for_each(|hit| hit.facet = Some(other_side));
         assert!(!found([&wall(&before), &from_behind]), "the other side has other light");
-        let mirror = Draft {
-            first_hits: wall(&after).first_hits.iter().map(|hit| FirstHit { is_matte: false, ..*hit }).collect(),
-            ..wall(&after)
-        };
+        let mut mirror = wall(&after);
+        mirror.g_buffer.first_hits.iter_mut().for_each(|hit| hit.is_matte = false);
         assert!(!found([&wall(&before), &mirror]));
     }
 }

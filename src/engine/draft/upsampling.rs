@@ -1,13 +1,17 @@
 //! Joint bilateral upsampling \[Kopf07\]: the light of a draft at more pixels than it has, of which the first ray alone is known.
 //!
 //! Silhouettes and textures are cheap and sharp, light is dear and mostly smooth: a pixel takes the light of the pixels around it that show the
-//! same surface under about the same normal, times its own albedo over theirs.
+//! same surface under about the same normal, times its own albedo over theirs. Where it is known what pixels show in mirrors and through glass,
+//! that counts, too.
 
+use super::g_buffer::{GBuffer, Reflected};
 use super::grid::{Between, around, filled, middle};
 use super::image::Draft;
 use crate::film::LinearImage;
 use crate::math::Rgb;
-use crate::transport::{Facet, FirstHit};
+use crate::transport::FirstHit;
+use glam::Vec3;
+use std::f32::consts::PI;
 
 /// Most pixels of a detail along the side of a pixel of its draft. More would show finer edges, and make the picture later.
 const FINER: u32 = 3;
@@ -16,57 +20,36 @@ const LEAST_WEIGHT: f32 = 1e-3;
 /// Albedo that is added to both before one is divided by the other: the light of a dark surface may come from a Phong lobe.
 const FLOOR: f32 = 0.05;
 
-/// What the first rays of a finer grid than a draft's meet.
-#[derive(Debug)]
-pub(in crate::engine) struct Detail {
-    /// Pixels per row, and rows.
-    pub(in crate::engine) size: [u32; 2],
-    /// Row by row.
-    pub(in crate::engine) first_hits: Vec<FirstHit>,
-    /// Time that the rays took, seconds.
-    pub(in crate::engine) seconds: f64,
-}
-
-impl Detail {
-    /// What is met at a position, given the pixel there: the albedo is the mean between the pixels of the same surface, because a texture of
-    /// blocks is harder to recognise than a blurred one.
-    fn at(&self, [x, y]: [f32; 2], pixel: usize) -> FirstHit {
-        let hit = self.first_hits[pixel];
-        let mean = |own: Facet| {
-            let (mut sum, mut weights) = (LEAST_WEIGHT * own.albedo, LEAST_WEIGHT);
-            for (index, weight) in Between::new(self.size, x, y).weights() {
-                if let Some(facet) = self.first_hits[index].facet.filter(|facet| facet.tag == own.tag) {
-                    (sum, weights) = (sum + weight * facet.albedo, weights + weight);
-                }
-            }
-            Facet { albedo: sum / weights, ..own }
-        };
-        FirstHit { facet: hit.facet.map(mean), ..hit }
-    }
-
-    /// The coarseness of the detail for a draft of this coarseness; `None` if the draft has all pixels.
-    pub(in crate::engine) fn coarseness(of_draft: u32) -> Option<u32> {
-        (of_draft > 1).then(|| of_draft.div_ceil(FINER))
-    }
+/// The coarseness of the detail for a draft of this coarseness; `None` if the draft has all pixels.
+pub(in crate::engine) fn detail_coarseness(of_draft: u32) -> Option<u32> {
+    (of_draft > 1).then(|| of_draft.div_ceil(FINER))
 }
 
 /// The pixels of a film that a draft and its detail show.
 pub(in crate::engine) struct Upsampling<'a> {
-    draft: &'a Draft,
-    detail: Option<&'a Detail>,
+    draft: &'a GBuffer,
+    /// A finer grid than the draft's.
+    detail: Option<&'a GBuffer>,
     image: &'a LinearImage,
     film: [u32; 2],
+}
+
+/// What a pixel shows.
+struct Seen {
+    first_hit: FirstHit,
+    /// In a mirror or through glass; `None` if that is not known.
+    reflected: Option<Option<Reflected>>,
 }
 
 impl<'a> Upsampling<'a> {
     /// The pixels of a film of this width and height for `image`, a picture with the pixels of the draft; bilinear means without a detail.
     pub(in crate::engine) fn new(
         draft: &'a Draft,
-        detail: Option<&'a Detail>,
+        detail: Option<&'a GBuffer>,
         image: &'a LinearImage,
         film: [u32; 2],
     ) -> Self {
-        Self { draft, detail, image, film }
+        Self { draft: &draft.g_buffer, detail, image, film }
     }
 
     /// The whole picture.
@@ -78,31 +61,30 @@ impl<'a> Upsampling<'a> {
     /// The radiance of a pixel of the film.
     pub(super) fn at(&self, x: u32, y: u32) -> Rgb {
         let on = |[width, height]: [u32; 2]| [middle(x, self.film[0], width), middle(y, self.film[1], height)];
-        let size = self.draft.pixel_size();
+        let size = self.draft.size;
         let [column, row] = on(size);
         let between = Between::new(size, column, row);
         let Some(detail) = self.detail else { return between.color(|index| self.image.pixels[index]) };
         let nearest = |[column, row]: [f32; 2], [width, height]: [u32; 2]| {
             ((row as u32).min(height - 1) * width + (column as u32).min(width - 1)) as usize
         };
-        let seen = &detail.at(on(detail.size), nearest(on(detail.size), detail.size));
+        let seen = &Seen::at(detail, on(detail.size), nearest(on(detail.size), detail.size));
         self.light(seen, between.weights()).unwrap_or_else(|| {
             // The middles of the nearest pixels may all lie on other surfaces.
             let near = around(size, nearest([column, row], size)).map(|index| (index, LEAST_WEIGHT));
-            let known = seen.facet.and_then(|_| self.light(seen, near));
+            let known = seen.first_hit.facet.and_then(|_| self.light(seen, near));
             known.unwrap_or_else(|| between.color(|index| self.image.pixels[index]))
         })
     }
 
-    /// The light at a pixel that meets this first, given pixels of the draft with their weights; `None` if these show nothing like it.
-    fn light(&self, seen: &FirstHit, pixels: impl IntoIterator<Item = (usize, f32)>) -> Option<Rgb> {
+    /// The light at a pixel that shows this, given pixels of the draft with their weights; `None` if these show nothing like it.
+    fn light(&self, seen: &Seen, pixels: impl IntoIterator<Item = (usize, f32)>) -> Option<Rgb> {
         let (mut sum, mut weights) = (Rgb::ZERO, 0.0);
         for (index, weight) in pixels {
-            let other = &self.draft.first_hits[index];
-            let weight = (weight + LEAST_WEIGHT) * likeness(seen, other);
+            let other = &Seen::by(self.draft, index);
+            let weight = (weight + LEAST_WEIGHT) * seen.likeness(other);
             if weight > 0.0 {
-                let albedo = |hit: &FirstHit| hit.facet.map_or(Rgb::ZERO, |facet| facet.albedo) + FLOOR;
-                sum += weight * self.image.pixels[index] * (albedo(seen) / albedo(other));
+                sum += weight * self.image.pixels[index] * seen.brightness_over(other);
                 weights += weight;
             }
         }
@@ -110,20 +92,66 @@ impl<'a> Upsampling<'a> {
     }
 }
 
-/// How alike the light at two first hits can be expected to be, from 0 to 1: 0 on different surfaces, less for different normals.
-fn likeness(a: &FirstHit, b: &FirstHit) -> f32 {
-    match (a.facet, b.facet) {
-        (Some(a), Some(b)) if a.tag == b.tag => (0.5 + 0.5 * a.normal.dot(b.normal)).max(0.0).powi(8),
-        // Lamps, and the background.
-        (None, None) if a.depth.is_finite() == b.depth.is_finite() => 1.0,
-        _ => 0.0,
+impl Seen {
+    /// What a pixel shows.
+    fn by(pixels: &GBuffer, index: usize) -> Self {
+        let reflected = pixels.knows_reflections().then(|| pixels.reflected(index));
+        Self { first_hit: pixels.first_hits[index], reflected }
     }
+
+    /// What is seen at a position, given the pixel there: the albedo is the mean between the pixels of the same surface, because a texture of
+    /// blocks is harder to recognise than a blurred one.
+    fn at(pixels: &GBuffer, [x, y]: [f32; 2], index: usize) -> Self {
+        let mut seen = Self::by(pixels, index);
+        if let Some(own) = &mut seen.first_hit.facet {
+            let (mut sum, mut weights) = (LEAST_WEIGHT * own.albedo, LEAST_WEIGHT);
+            for (index, weight) in Between::new(pixels.size, x, y).weights() {
+                if let Some(facet) = pixels.first_hits[index].facet.filter(|facet| facet.tag == own.tag) {
+                    (sum, weights) = (sum + weight * facet.albedo, weights + weight);
+                }
+            }
+            own.albedo = sum / weights;
+        }
+        seen
+    }
+
+    /// How alike the light can be expected to be, from 0 to 1: 0 on different surfaces, less for different normals.
+    fn likeness(&self, other: &Self) -> f32 {
+        let directly = match (self.first_hit.facet, other.first_hit.facet) {
+            (Some(a), Some(b)) if a.tag == b.tag => by_normals(a.normal, b.normal),
+            // Lamps, and the background.
+            (None, None) if self.first_hit.depth.is_finite() == other.first_hit.depth.is_finite() => 1.0,
+            _ => 0.0,
+        };
+        let reflected = match (self.reflected, other.reflected) {
+            (Some(Some(a)), Some(Some(b))) if a.surface.tag == b.surface.tag => {
+                by_normals(a.surface.normal, b.surface.normal)
+            }
+            (Some(Some(_)), Some(_)) | (Some(_), Some(Some(_))) => 0.0,
+            _ => 1.0,
+        };
+        directly * reflected
+    }
+
+    /// How bright this looks over the other in the same light.
+    fn brightness_over(&self, other: &Self) -> Rgb {
+        let [own, others] = match (self.reflected, other.reflected) {
+            (Some(Some(a)), Some(Some(b))) => [a, b].map(|seen| PI * seen.reflectance),
+            _ => [self, other].map(|seen| seen.first_hit.facet.map_or(Rgb::ZERO, |facet| facet.albedo)),
+        };
+        (own + FLOOR) / (others + FLOOR)
+    }
+}
+
+/// How alike the light on two sides of a surface of these normals can be expected to be, from 0 to 1.
+fn by_normals(a: Vec3, b: Vec3) -> f32 {
+    (0.5 + 0.5 * a.dot(b)).max(0.0).powi(8)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec3;
+    use crate::transport::{Facet, Guides, SeenSurface};
 
     /// Pixels of the film along a side; each of the draft is four wide.
     const SIDE: u32 = 16;
@@ -137,9 +165,9 @@ mod tests {
     fn upsampled(radiance: impl Fn(u32) -> f32, hits: impl Fn(u32) -> FirstHit) -> Vec<f32> {
         let columns = || (0..4 * 4).map(|index| index % 4 * 4 + 2);
         let mut draft = Draft::of_pixels(4, columns().map(|x| Rgb::splat(radiance(x))).collect(), 1.0, 1.0);
-        draft.first_hits = columns().map(&hits).collect();
+        draft.g_buffer.first_hits = columns().map(&hits).collect();
         let first_hits = (0..SIDE * SIDE).map(|index| hits(index % SIDE)).collect();
-        let detail = Detail { size: [SIDE; 2], first_hits, seconds: 0.0 };
+        let detail = GBuffer::of_first_hits([SIDE; 2], first_hits);
         let picture = Upsampling::new(&draft, Some(&detail), &draft.image, [SIDE; 2]).picture();
         picture.pixels[5 * SIDE as usize..][..SIDE as usize].iter().map(|pixel| pixel.x).collect()
     }
@@ -177,5 +205,42 @@ mod tests {
         let lamp = FirstHit { facet: None, ..hit(0, Vec3::Z, 0.5) };
         let row = upsampled(|x| if x < 7 { 5.0 } else { 1.0 }, |x| if x < 7 { lamp } else { hit(0, Vec3::Z, 0.5) });
         assert_eq!([row[6], row[7]], [5.0, 1.0], "the edge of a lamp");
+    }
+
+    /// A mirror that shows a red surface in its left half and a textured white one in its right half.
+    #[test]
+    fn what_a_mirror_shows_is_as_sharp_as_the_detail() {
+        let albedo = |x: u32| if x < 7 { 0.3 } else { [0.4, 0.8][x as usize % 2] };
+        let seen = |x: u32| SeenSurface {
+            position: Vec3::ZERO,
+            normal: Vec3::Z,
+            footprint: 1.0,
+            tag: if x < 7 { 16 } else { 24 },
+            seen_directly: false,
+        };
+        let g_buffer = |side: u32, columns: &dyn Fn(u32) -> u32| {
+            let columns = || (0..side * side).map(|index| columns(index % side));
+            GBuffer {
+                guides: Guides {
+                    reflectances: columns().map(|x| Rgb::splat(albedo(x) / PI)).collect(),
+                    surfaces: columns().map(|x| Some(seen(x))).collect(),
+                },
+                ..GBuffer::of_first_hits([side; 2], columns().map(|_| hit(0, Vec3::Z, 0.0)).collect())
+            }
+        };
+        let light = |x: u32| albedo(x) * if x < 7 { 1.0 } else { 5.0 };
+        let columns = |x: u32| x * 4 + 2;
+        let mut draft = Draft::of_pixels(4, (0..16).map(|k| Rgb::splat(light(columns(k % 4)))).collect(), 1.0, 1.0);
+        draft.g_buffer = g_buffer(4, &columns);
+        let known = g_buffer(SIDE, &|x| x);
+        let row = |detail: &GBuffer| {
+            let picture = Upsampling::new(&draft, Some(detail), &draft.image, [SIDE; 2]).picture();
+            picture.pixels[..SIDE as usize].iter().map(|pixel| pixel.x).collect::<Vec<f32>>()
+        };
+        for (x, value) in (0..).zip(row(&known)) {
+            assert!((value / light(x) - 1.0).abs() < 0.1, "{value} instead of {} in column {x}", light(x));
+        }
+        let first_hits = GBuffer { guides: Guides::default(), ..known };
+        assert!((row(&first_hits)[7] - light(7)).abs() > 0.5 * light(7), "blurred where that is not known");
     }
 }

@@ -27,7 +27,7 @@ pub struct Band {
     differences: Vec<BandwidthDifference>,
     /// Samples of Phong lobes, for each pixel; empty where no pixel reuses any.
     lobes: Vec<Option<LobeSample>>,
-    /// In a draft, where the first ray of each pixel ended.
+    /// Where the first ray of each pixel ended, if the input asks for it.
     first_hits: Vec<FirstHit>,
     /// What the pixels show, if the input asks for it.
     guides: Guides,
@@ -44,7 +44,7 @@ pub struct Contribution {
     pub samples: Vec<PixelSamples>,
     /// Bandwidth differences, for each pixel of the film; 0 where not measured.
     pub differences: Vec<BandwidthDifference>,
-    /// In a draft, where the first ray of each pixel ended. Otherwise empty.
+    /// Where the first ray of each pixel ended, if the input asks for it. Otherwise empty.
     pub first_hits: Vec<FirstHit>,
     /// What the pixels show, if the input asks for it. Otherwise empty.
     pub guides: Guides,

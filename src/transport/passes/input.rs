@@ -14,7 +14,7 @@ pub struct PassInput<'a> {
     pub seed: u64,
     /// Number of the iteration, from 1.
     pub iteration: u64,
-    /// Whether to tell what pixels show, for a filter of the picture.
+    /// Whether to tell what pixels show: for a filter of the picture, and for drafts.
     pub guides: bool,
     /// Tells the passes when to give up.
     pub cancel: Cancel<'a>,
@@ -24,6 +24,11 @@ impl<'a> PassInput<'a> {
     /// The input of passes that always finish.
     pub fn uncancelled(world: &'a World, plan: &'a Plan, seed: u64, iteration: u64) -> Self {
         Self { world, plan, seed, iteration, guides: false, cancel: Cancel::NEVER }
+    }
+
+    /// Whether the camera pass tells where first rays end.
+    pub(super) fn wants_first_hits(&self) -> bool {
+        self.plan.is_draft() || (self.guides && self.iteration == 1)
     }
 
     /// The sampler at this index of a sequence, of the plan's version of a stream: see [`Plan::stream`].

@@ -13,7 +13,7 @@ pub struct CameraBatch {
     pub facets: Vec<Facet>,
     /// Samples of emission and direct light: one value for each pixel of the rows, row by row.
     pub samples: Vec<PixelSamples>,
-    /// In a draft, where the first ray of each pixel ended. Otherwise empty.
+    /// Where the first ray of each pixel ended, if the input asks for it. Otherwise empty.
     pub first_hits: Vec<FirstHit>,
     /// Work done.
     pub counters: Counters,

@@ -26,7 +26,7 @@ pub fn camera_pass(input: &PassInput, rows: &Rows) -> Option<CameraBatch> {
     let width = plan.camera.width;
     let pixels = rows.len() * width as usize;
     let samples = vec![PixelSamples::default(); pixels];
-    let first_hits = if plan.is_draft() { vec![FirstHit::NONE; pixels] } else { Vec::new() };
+    let first_hits = if input.wants_first_hits() { vec![FirstHit::NONE; pixels] } else { Vec::new() };
     let batch = CameraBatch { samples, first_hits, ..CameraBatch::default() };
     let mut tracer = CameraTracer::new(world, plan, batch);
     let mut pixel = Pixel::new();

@@ -145,7 +145,7 @@ impl<'a> CameraTracer<'a> {
 
     fn add_first_vertex(&self, vertex: &Vertex, is_textured: bool, pixel: &mut Pixel) {
         pixel.is_textured |= is_textured;
-        if self.plan.gathers() || self.plan.is_draft() {
+        if self.plan.gathers() || !self.batch.first_hits.is_empty() {
             pixel.add(facet(self.world, vertex), vertex.n_shade != vertex.n_side);
         }
     }
