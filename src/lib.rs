@@ -45,7 +45,7 @@
 //!
 //! ```
 //! use patchlight::engine::Session;
-//! use patchlight::film::{ToneMap, write_png};
+//! use patchlight::film::{PngDepth, Provenance, ToneMap, write_png};
 //! use patchlight::math::Rgb;
 //! use patchlight::scene::SceneFile;
 //! use patchlight::transport::Cancel;
@@ -64,7 +64,8 @@
 //! let folder = tempfile::tempdir()?;
 //! let path = folder.path().join("water.png");
 //! let film = &file.scene.film;
-//! write_png(&path, &image, &ToneMap::new(film.exposure, film.tone_curve))?;
+//! let tone = ToneMap::new(film.exposure, film.tone_curve);
+//! write_png(&path, &image, &tone, PngDepth::Eight, &Provenance::default())?;
 //! assert!(path.metadata()?.len() > 0);
 //! # Ok(())
 //! # }

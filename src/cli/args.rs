@@ -1,6 +1,6 @@
 //! The command line, and the texts of `--help`.
 
-use crate::{engine::MOST_ITERATIONS, scene::SurfaceOptions, transport::Component};
+use crate::{engine::MOST_ITERATIONS, film::PngDepth, scene::SurfaceOptions, transport::Component};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use serde::Deserialize;
 use std::{num::NonZeroUsize, path::PathBuf};
@@ -80,6 +80,27 @@ impl From<ComponentName> for Component {
     }
 }
 
+/// The bits of each channel of a PNG picture on the command line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum PngBits {
+    /// For screens
+    #[default]
+    #[value(name = "8")]
+    Eight,
+    /// For further editing
+    #[value(name = "16")]
+    Sixteen,
+}
+
+impl From<PngBits> for PngDepth {
+    fn from(bits: PngBits) -> Self {
+        match bits {
+            PngBits::Eight => Self::Eight,
+            PngBits::Sixteen => Self::Sixteen,
+        }
+    }
+}
+
 #[derive(Debug, Args)]
 pub(super) struct RenderArguments {
     /// A scene file or the name of a built-in scene
@@ -87,6 +108,9 @@ pub(super) struct RenderArguments {
     /// The picture file: .png with exposure and tone curve, or .exr with linear 32-bit floats
     #[arg(short, long, value_name = "OUT.(png|exr)", required_unless_present = "checkpoint")]
     pub(super) output: Option<PathBuf>,
+    /// Bits of each channel of a PNG picture
+    #[arg(long, value_name = "BITS", value_enum, default_value_t)]
+    pub(super) png_bits: PngBits,
     #[command(flatten)]
     pub(super) budget: Budget,
     #[command(flatten)]
@@ -126,6 +150,9 @@ pub(super) struct MergeArguments {
     /// The picture file: .png with exposure and tone curve, or .exr with linear 32-bit floats
     #[arg(short, long, value_name = "OUT.(png|exr)", required_unless_present = "checkpoint")]
     pub(super) output: Option<PathBuf>,
+    /// Bits of each channel of a PNG picture
+    #[arg(long, value_name = "BITS", value_enum, default_value_t)]
+    pub(super) png_bits: PngBits,
     /// Write the merged film to this checkpoint
     #[arg(long, value_name = "FILE")]
     pub(super) checkpoint: Option<PathBuf>,

@@ -6,6 +6,7 @@ use super::{
     statistics::Statistics,
 };
 use crate::engine::{Checkpoint, CheckpointFile};
+use crate::film::{PngDepth, Provenance};
 use std::{
     io::{self, Write, stderr},
     path::{Path, PathBuf},
@@ -13,7 +14,7 @@ use std::{
 
 /// `patchlight merge`: merges the checkpoints of consecutive iterations.
 pub(super) fn merge(arguments: &MergeArguments) -> Result<(), CliError> {
-    let MergeArguments { films, output, checkpoint, stats } = arguments;
+    let MergeArguments { films, output, checkpoint, stats, png_bits } = arguments;
     let format = output.as_deref().map(PictureFormat::of).transpose()?;
     let written = [(output, "picture"), (checkpoint, "checkpoint"), (stats, "statistics")];
     let written: Vec<_> = written.into_iter().filter_map(|(path, name)| Some((path.as_deref()?, name))).collect();
@@ -26,7 +27,11 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), CliError> {
         Checkpoint::write(path, &merged.run, &merged.part)?;
     }
     if let (Some(format), Some(path)) = (format, output) {
-        format.write(path, &merged.part.film().image(), merged.run.display())?;
+        let stats = merged.part.stats();
+        let provenance =
+            Provenance { iterations: stats.iterations, error: stats.error_estimate, ..Provenance::default() };
+        let image = merged.part.film().image();
+        format.write(path, &image, merged.run.display(), PngDepth::from(*png_bits), &provenance)?;
     }
     if let Some(path) = stats {
         write(path, Statistics::new(&merged.part.stats(), merged.run.size()).json()?.as_bytes())?;

@@ -1,6 +1,6 @@
 use super::CliError;
 use crate::{
-    film::{LinearImage, ToneMap, write_exr, write_png},
+    film::{LinearImage, PngDepth, Provenance, ToneMap, write_exr, write_png},
     scene::ToneCurve,
 };
 use std::path::Path;
@@ -23,11 +23,18 @@ impl PictureFormat {
         }
     }
 
-    /// Writes a picture; a PNG file with an exposure in stops and a tone curve.
-    pub(super) fn write(self, path: &Path, image: &LinearImage, display: (f64, ToneCurve)) -> Result<(), CliError> {
+    /// Writes a picture; a PNG file of this depth with an exposure in stops and a tone curve.
+    pub(super) fn write(
+        self,
+        path: &Path,
+        image: &LinearImage,
+        (exposure, curve): (f64, ToneCurve),
+        depth: PngDepth,
+        provenance: &Provenance,
+    ) -> Result<(), CliError> {
         match self {
-            Self::Png => write_png(path, image, &ToneMap::new(display.0, display.1))?,
-            Self::Exr => write_exr(path, image)?,
+            Self::Png => write_png(path, image, &ToneMap::new(exposure, curve), depth, provenance)?,
+            Self::Exr => write_exr(path, image, provenance)?,
         }
         Ok(())
     }

@@ -12,6 +12,7 @@ use super::{
 };
 use crate::{
     engine::{CheckpointError, Frame, Session},
+    film::Provenance,
     scene::SceneFile,
     transport::Component,
 };
@@ -42,7 +43,8 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
         && frame.iteration > 0
     {
         let film = &file.scene.film;
-        format.write(path, &frame.image, (film.exposure, film.tone_curve))?;
+        let display = (film.exposure, film.tone_curve);
+        format.write(path, &frame.image, display, arguments.png_bits.into(), &provenance(&file, arguments, &frame))?;
     }
     if let Some(path) = &arguments.stats {
         let size = (frame.image.width, frame.image.height);
@@ -67,6 +69,19 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
             report(&frame, &output).ok();
             Ok(())
         }
+    }
+}
+
+/// What the picture's file tells of its provenance.
+fn provenance(file: &SceneFile, arguments: &RenderArguments, frame: &Frame) -> Provenance {
+    let RenderSettings { seed, only, .. } = arguments.settings;
+    let only = only.map(|only| ("Only", format!("{:?}", Component::from(only)).to_lowercase()));
+    Provenance {
+        scene: Some(file.snapshot()),
+        settings: [("Seed", seed.to_string())].into_iter().chain(only).collect(),
+        iterations: frame.iteration,
+        error: frame.stats.error_estimate,
+        camera: Some(file.scene.camera),
     }
 }
 

@@ -132,7 +132,8 @@ impl FilmSums {
         }
     }
 
-    fn pixel_count(&self) -> usize {
+    /// The number of pixels.
+    pub(super) fn pixel_count(&self) -> usize {
         self.width as usize * self.height as usize
     }
 

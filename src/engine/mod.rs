@@ -17,6 +17,7 @@
 //! | `iteration` | one iteration: the main loop of the algorithm |
 //! | `display/` | a filter of the interreflection that the screen shows |
 //! | `session` | the rendering of one scene |
+//! | `visited` | pictures of scenes that an edit left |
 //! | `stand_in` | the scene before an edit and its picture |
 //! | `shared` | the state that the caller and the worker share |
 //! | `draft/` | quick first pictures |
@@ -39,6 +40,7 @@ mod run;
 mod session;
 mod shared;
 mod stand_in;
+mod visited;
 mod worker;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointFile};

@@ -75,6 +75,25 @@ pub struct Session {
     interreflection: Option<Interreflection>,
 }
 
+/// What a session has rendered, apart from its scene.
+pub(super) struct Rendered {
+    part: FilmPart,
+    interreflection: Option<Interreflection>,
+    g_buffer: Option<Arc<GBuffer>>,
+}
+
+impl Rendered {
+    /// The iterations, as full ones.
+    pub(super) fn weight(&self) -> f64 {
+        self.part.film.weight()
+    }
+
+    /// The number of pixels of the film.
+    pub(super) fn pixels(&self) -> usize {
+        self.part.film.pixel_count()
+    }
+}
+
 impl Session {
     /// Prepares a scene and its plan, and reuses the trees and textures that the scene has in common with the scene of the `previous`
     /// session. Call this inside the thread pool that is to do the work.
@@ -298,10 +317,17 @@ impl Session {
         Frame { draft: true, smoothed: smoothed.is_some(), preview: smoothed, ..frame }
     }
 
-    /// The session without its iterations: its scene, for drafts.
-    pub(super) fn without_film(mut self) -> Self {
-        self.part = FilmPart::new(&self.plan);
-        self
+    /// The session without its iterations, for drafts of its scene, and what it has rendered.
+    pub(super) fn without_film(mut self) -> (Self, Rendered) {
+        let part = std::mem::replace(&mut self.part, FilmPart::new(&self.plan));
+        let rendered = Rendered { part, interreflection: self.interreflection.take(), g_buffer: self.g_buffer.clone() };
+        (self, rendered)
+    }
+
+    /// Goes on where another session of the same scene ended.
+    pub(super) fn with_rendered(mut self, Rendered { part, interreflection, g_buffer }: Rendered) -> Self {
+        (self.interreflection, self.g_buffer) = (interreflection, g_buffer);
+        self.resuming(part)
     }
 
     /// The camera with the film's grid.

@@ -1,7 +1,7 @@
 //! The scene before an edit and its picture, which stands in for the light that the edit has hardly changed.
 
 use super::draft::Before;
-use super::session::Session;
+use super::session::{Rendered, Session};
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
 use crate::transport::DraftSize;
@@ -18,11 +18,12 @@ pub(super) struct StandIn {
 }
 
 impl StandIn {
-    /// The picture that the session of a scene has so far, or `smoothed`, which has less noise.
-    pub(super) fn new(scene: Arc<SceneFile>, session: Session, smoothed: Option<Arc<LinearImage>>) -> Self {
+    /// The picture that the session of a scene has so far, or `smoothed`, which has less noise; and what the session has rendered.
+    pub(super) fn new(scene: Arc<SceneFile>, session: Session, smoothed: Option<Arc<LinearImage>>) -> (Self, Rendered) {
         let (film, weight) = (session.film(), session.film().weight());
         let image = smoothed.unwrap_or_else(|| Arc::new(film.image()));
-        Self { scene, image, weight, session: session.without_film() }
+        let (session, rendered) = session.without_film();
+        (Self { scene, image, weight, session }, rendered)
     }
 
     /// Whether the picture may stand in for one of this scene, whose camera has the film's grid: either the camera sees the scene from the

@@ -6,6 +6,7 @@ use super::messages::Status;
 use super::session::{Session, SessionError};
 use super::shared::Shared;
 use super::stand_in::StandIn;
+use super::visited::Visited;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
 use crate::transport::Cancel;
@@ -36,6 +37,8 @@ pub(super) struct Worker {
     drafts: DraftPace,
     /// The picture before the edits.
     stand_in: Option<StandIn>,
+    /// The pictures of scenes that edits left.
+    visited: Visited,
     /// The first picture of the present scene, if another one stands in for parts of it.
     preview: Option<Preview>,
     /// The last picture of the present scene with less noise in its interreflection.
@@ -65,6 +68,7 @@ impl Worker {
             rendered: None,
             drafts: DraftPace::default(),
             stand_in: None,
+            visited: Visited::default(),
             preview: None,
             smoothed: None,
             smooth: false,
@@ -118,8 +122,9 @@ impl Worker {
         let scene = request.scene.take();
         drop(request);
         if restart.is_some() {
-            // A restart shows how the picture converges, from its beginning.
+            // A restart shows how the picture converges, from its beginning, with files that may have changed.
             (self.rendered, self.stand_in) = (None, None);
+            self.visited.clear();
         }
         let next = match (scene, restart, &self.current) {
             (Some((generation, scene)), restart, _) => Some((restart.unwrap_or(0).max(generation), scene)),
@@ -148,11 +153,15 @@ impl Worker {
             session = session.showing_the_same(known);
         }
         self.keep_stand_in(previous, &scene, &session);
-        if let Some(frame) = self.first_picture(&mut session, generation) {
+        session = self.visited.resumed(&scene, session);
+        self.last_frame = None;
+        if session.iterations() > 0 {
+            self.drafts.skip();
+        } else if let Some(frame) = self.first_picture(&mut session, generation) {
             self.shared.publish(frame);
         }
         (self.session, self.rendered) = (Some(session), Some(scene));
-        self.last_frame = None;
+        self.publish_if(|iterations| iterations > 0);
         Ok(())
     }
 
@@ -191,7 +200,14 @@ impl Worker {
         let least = kept.as_ref().map_or(0.0, |kept| kept.weight.min(SETTLED_WEIGHT));
         let better = previous.filter(|(_, session)| session.film().weight() > least);
         let smoothed = self.smoothed.take();
-        self.stand_in = better.map(|(scene, session)| StandIn::new(scene, session, smoothed)).filter(fits).or(kept);
+        self.stand_in = kept;
+        if let Some((scene, session)) = better {
+            let (stand_in, rendered) = StandIn::new(scene.clone(), session, smoothed);
+            self.visited.keep(scene, rendered);
+            if fits(&stand_in) {
+                self.stand_in = Some(stand_in);
+            }
+        }
     }
 
     /// Renders the next draft or iteration of the current scene.

@@ -1,7 +1,8 @@
-use super::{ImageError, LinearImage, ToneMap};
+use super::{ImageError, LinearImage, Provenance, ToneMap};
 use crate::file::{read_limited, write_whole};
 use crate::scene::Film;
-use image::{ImageReader, codecs::png::PngEncoder};
+use image::ImageReader;
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 use std::{
     io::{self, Cursor},
     path::Path,
@@ -10,16 +11,61 @@ use std::{
 /// Most bytes of a mask: more than the largest picture of the program takes without compression.
 const MAX_MASK_BYTES: u64 = 1 << 30;
 
-/// Writes an image as an sRGB PNG file of 8 bits per channel. The file is written whole or not at all.
+/// The bits of each channel of a PNG file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PngDepth {
+    /// 8 bits.
+    #[default]
+    Eight,
+    /// 16 bits, for gradients that are edited further.
+    Sixteen,
+}
+
+/// Writes an image as an sRGB PNG file, with its provenance in text chunks. The file is written whole or not at all.
 ///
 /// # Errors
 ///
 /// If the file cannot be written.
-pub fn write_png(path: &Path, image: &LinearImage, tone: &ToneMap) -> Result<(), ImageError> {
+pub fn write_png(
+    path: &Path,
+    image: &LinearImage,
+    tone: &ToneMap,
+    depth: PngDepth,
+    provenance: &Provenance,
+) -> Result<(), ImageError> {
     let failed = |source| ImageError::Write { file: path.to_owned(), source };
-    let mut bytes = Vec::new();
-    tone.map_image(image).write_with_encoder(PngEncoder::new(&mut bytes)).map_err(|e| failed(io::Error::other(e)))?;
+    let bytes = encoded(image, tone, depth, provenance).map_err(|e| failed(io::Error::other(e)))?;
     write_whole(path, &bytes).map_err(failed)
+}
+
+/// The bytes of a PNG file.
+fn encoded(
+    image: &LinearImage,
+    tone: &ToneMap,
+    depth: PngDepth,
+    provenance: &Provenance,
+) -> Result<Vec<u8>, EncodingError> {
+    let (bits, data) = match depth {
+        PngDepth::Eight => (BitDepth::Eight, tone.map_image(image).into_raw()),
+        PngDepth::Sixteen => {
+            let channels = image.pixels.iter().flat_map(|radiance| tone.map_to_16_bits(*radiance));
+            (BitDepth::Sixteen, channels.flat_map(u16::to_be_bytes).collect())
+        }
+    };
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, image.width, image.height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(bits);
+    encoder.set_compression(Compression::Fast);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    encoder.add_text_chunk("Software".to_owned(), Provenance::SOFTWARE.to_owned())?;
+    for (name, value) in provenance.fields() {
+        encoder.add_itxt_chunk(name.to_owned(), value)?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&data)?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 /// The pixels that a comparison includes.
@@ -76,6 +122,34 @@ mod tests {
     use super::*;
     use crate::{math::Rgb, scene::ToneCurve};
     use std::fs;
+
+    fn write_png(path: &Path, image: &LinearImage, tone: &ToneMap) -> Result<(), ImageError> {
+        super::write_png(path, image, tone, PngDepth::Eight, &Provenance::default())
+    }
+
+    #[test]
+    fn sixteen_bits_tell_more_than_eight_and_the_text_tells_the_scene() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.png");
+        let pixels: Vec<Rgb> = (0..64).map(|k| Rgb::splat(0.2 + 1e-5 * k as f32)).collect();
+        let image = LinearImage { width: 64, height: 1, pixels };
+        let scene = "version = 1\nname = \"\u{e4}\"\n".to_owned();
+        let provenance = Provenance { scene: Some(scene.clone()), iterations: 9, ..Provenance::default() };
+        let tone = ToneMap::new(1.0, ToneCurve::Srgb);
+        super::write_png(&path, &image, &tone, PngDepth::Sixteen, &provenance).unwrap();
+        let read = image::open(&path).unwrap().into_rgb16();
+        for (k, pixel) in read.pixels().enumerate() {
+            let x = 2.0 * (0.2 + 1e-5 * k as f64);
+            let exact = (1.055 * x.powf(1.0 / 2.4) - 0.055) * 65535.0;
+            assert!((f64::from(pixel.0[1]) - exact).abs() < 1.0, "{} instead of {exact}", pixel.0[1]);
+        }
+        let decoder = png::Decoder::new(io::BufReader::new(fs::File::open(&path).unwrap()));
+        let reader = decoder.read_info().unwrap();
+        let texts = &reader.info().utf8_text;
+        let text = |name: &str| texts.iter().find(|chunk| chunk.keyword == name).map(|chunk| chunk.get_text().unwrap());
+        assert_eq!((text("Scene"), text("Iterations")), (Some(scene), Some("9".to_owned())));
+        assert_eq!(reader.info().uncompressed_latin1_text[0].text, Provenance::SOFTWARE);
+    }
 
     #[test]
     fn rows_begin_at_the_top() {

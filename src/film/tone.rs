@@ -13,10 +13,11 @@ const MANTISSA_BITS: u32 = 9;
 
 const SHIFT: u32 = f32::MANTISSA_DIGITS - 1 - MANTISSA_BITS;
 
-/// The map from linear radiance to 8-bit sRGB: exposure and tone curve in one table.
+/// The map from linear radiance to sRGB: exposure and tone curve, for 8 bits in one table.
 #[derive(Clone, Debug)]
 pub struct ToneMap {
     gain: f32,
+    curve: ToneCurve,
     table: Vec<u8>,
 }
 
@@ -26,13 +27,19 @@ impl ToneMap {
         let first = DARKEST.to_bits() >> SHIFT;
         let last = BRIGHTEST.to_bits() >> SHIFT;
         let middle_of_cell = |cell: u32| f32::from_bits((cell << SHIFT) | (1 << (SHIFT - 1)));
-        let table = (first..last).map(|cell| encode(middle_of_cell(cell), curve)).collect();
-        Self { gain: exposure.exp2() as f32, table }
+        let step = |cell: u32| (encode(middle_of_cell(cell), curve) * 255.0).round() as u8;
+        Self { gain: exposure.exp2() as f32, curve, table: (first..last).map(step).collect() }
     }
 
     /// The 8-bit sRGB colour of a radiance. NaN is black.
     pub fn map(&self, radiance: Rgb) -> [u8; 3] {
         (radiance * self.gain).to_array().map(|x| self.look_up(x))
+    }
+
+    /// The 16-bit sRGB colour of a radiance. NaN is black.
+    pub fn map_to_16_bits(&self, radiance: Rgb) -> [u16; 3] {
+        // `max` returns the other operand for NaN.
+        (radiance * self.gain).to_array().map(|x| (encode(x.max(0.0), self.curve) * 65535.0).round() as u16)
     }
 
     /// The image in 8-bit sRGB colours.
@@ -54,12 +61,13 @@ impl ToneMap {
     }
 }
 
-fn encode(x: f32, curve: ToneCurve) -> u8 {
+/// The sRGB value of a radiance, from 0 to 1.
+fn encode(x: f32, curve: ToneCurve) -> f32 {
     let x = match curve {
         ToneCurve::Srgb => x,
         ToneCurve::Filmic => roll_off(x),
     };
-    (srgb_from_linear(x.min(1.0)) * 255.0).round() as u8
+    srgb_from_linear(x.min(1.0))
 }
 
 /// Keeps radiance below the knee and lets highlights approach 1, by the curve `t / (1 + t)` \[Reinhard02\] above the knee,

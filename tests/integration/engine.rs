@@ -203,6 +203,30 @@ fn a_restart_begins_without_the_picture_before() {
     assert!(frame.preview.is_none());
 }
 
+/// Undo shows the picture as it was left, and it goes on converging; its display settings do not matter.
+#[test]
+fn a_scene_that_comes_back_has_its_picture_at_once() {
+    let mut engine = Watched::start();
+    engine.engine.send(Command::Show(room(0.5)));
+    let left = engine.frames_until(|frame| frame.iteration >= 20).last().expect("there are frames").clone();
+    engine.engine.send(Command::Show(room(0.4)));
+    engine.frames_until(|frame| frame.generation == 2 && frame.iteration >= 1);
+    let mut brighter = room(0.5).as_ref().clone();
+    brighter.scene.film.exposure += 1.0;
+    engine.engine.send(Command::Show(Arc::new(brighter)));
+    let back = engine.frames_until(|frame| frame.generation == 3 && frame.iteration > left.iteration + 2);
+    let of_it: Vec<_> = back.iter().filter(|frame| frame.generation == 3).collect();
+    assert!(!of_it[0].draft && of_it[0].iteration >= left.iteration, "iteration {}", of_it[0].iteration);
+    let mut session = Session::prepare(&room(0.5), 1, None).expect("the scene can be prepared");
+    while session.iterations() < of_it[of_it.len() - 1].iteration {
+        session.advance(Cancel::NEVER).expect("never cancelled");
+    }
+    assert_eq!(of_it[of_it.len() - 1].image, session.frame(1).image, "the same film as without a visit elsewhere");
+    engine.engine.send(Command::Restart);
+    let again = engine.frames_until(|frame| frame.generation == 4 && frame.iteration >= 1);
+    assert_eq!(again.last().map(|frame| frame.iteration), Some(1), "a restart begins anew");
+}
+
 /// Less noise is for the screen alone: the film has the bits of a rendering without a screen. It comes and goes while the engine pauses.
 #[test]
 fn a_smoothed_preview_leaves_the_film_as_it_is() {

@@ -12,6 +12,7 @@ pub(crate) enum Action {
     SaveAs,
     Export,
     ExportShown,
+    ExportDeep,
     ExportSurface,
     Quit,
     Undo,
@@ -86,6 +87,7 @@ const TABLE: &[Row] = &[
     (Action::SaveAs, "Save as…", &[(CTRL_SHIFT, Key::S)]),
     (Action::Export, "Export picture…", &[(CTRL, Key::E)]),
     (Action::ExportShown, "Export picture as shown…", &[]),
+    (Action::ExportDeep, "Export 16-bit picture…", &[]),
     (Action::ExportSurface, "Export surface…", &[(CTRL_SHIFT, Key::E)]),
     (Action::Quit, "Quit", &[(CTRL, Key::Q)]),
     (Action::Undo, "Undo", &[(CTRL, Key::Z)]),
@@ -152,6 +154,7 @@ impl Action {
     pub(crate) fn tip(self) -> &'static str {
         match self {
             Self::ExportShown => "A PNG as the screen shows the picture: with less noise, where it is smoothed",
+            Self::ExportDeep => "A PNG with 16 bits per channel, for further editing",
             Self::SplitU | Self::SplitV | Self::SplitBoth => {
                 "Halves the shown patch exactly, and with it the whole strip of patches across, so that seams stay closed. \
                  The surface stays the same."

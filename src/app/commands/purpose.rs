@@ -12,6 +12,8 @@ pub(crate) enum Purpose {
     ExportPicture,
     /// Of the picture as the screen shows it, with less noise where the display filter is on.
     ExportShown,
+    /// As a PNG file of 16 bits per channel.
+    ExportDeep,
     ExportSurface,
     AddSurface,
     AddTexture,
@@ -25,6 +27,7 @@ impl Purpose {
             Self::SaveScene => "Save scene",
             Self::ExportPicture => "Export picture",
             Self::ExportShown => "Export picture as shown",
+            Self::ExportDeep => "Export 16-bit picture",
             Self::ExportSurface => "Export surface",
             Self::AddSurface => "Add patches",
             Self::AddTexture => "Add texture",
@@ -38,6 +41,7 @@ impl Purpose {
             Self::SaveScene => "save-scene",
             Self::ExportPicture => "export-picture",
             Self::ExportShown => "export-shown",
+            Self::ExportDeep => "export-deep",
             Self::ExportSurface => "export-surface",
             Self::AddSurface => "add-surface",
             Self::AddTexture => "add-texture",
@@ -54,7 +58,10 @@ impl Purpose {
 
     /// Whether the file is written, not read.
     pub(crate) fn writes(self) -> bool {
-        matches!(self, Self::SaveScene | Self::ExportPicture | Self::ExportShown | Self::ExportSurface)
+        matches!(
+            self,
+            Self::SaveScene | Self::ExportPicture | Self::ExportShown | Self::ExportDeep | Self::ExportSurface
+        )
     }
 
     /// The allowed extensions, in lower case; the first is the default.
@@ -62,7 +69,7 @@ impl Purpose {
         match self {
             Self::OpenScene | Self::SaveScene => &["toml"],
             Self::ExportPicture => &["png", "exr"],
-            Self::ExportShown => &["png"],
+            Self::ExportShown | Self::ExportDeep => &["png"],
             Self::ExportSurface => &SurfaceFormat::EXTENSIONS,
             Self::AddSurface => &PatchFormat::EXTENSIONS,
             Self::AddTexture => &["png", "jpg", "jpeg"],
@@ -75,6 +82,7 @@ impl Purpose {
             Self::OpenScene | Self::SaveScene => ".toml (scene)",
             Self::ExportPicture => ".png (tone-mapped) or .exr (linear, 32-bit float)",
             Self::ExportShown => ".png (with the display filter, where it is on)",
+            Self::ExportDeep => ".png (tone-mapped, 16 bits per channel)",
             Self::ExportSurface => ".obj or .stl (mesh), .bpt (control points), .step (surfaces)",
             Self::AddSurface => ".bpt, .obj, .pov, .rib (bicubic Bezier patches)",
             Self::AddTexture => ".png or .jpg (image)",

@@ -59,6 +59,7 @@ impl Editor {
             Action::SaveAs => self.save_as(ctx),
             Action::Export => self.ask_for_path(ctx, Purpose::ExportPicture),
             Action::ExportShown => self.ask_for_path(ctx, Purpose::ExportShown),
+            Action::ExportDeep => self.ask_for_path(ctx, Purpose::ExportDeep),
             Action::ExportSurface => self.ask_for_surface(),
             Action::Quit => self.leave(ctx, Next::Quit),
             Action::Undo => self.document.undo(),

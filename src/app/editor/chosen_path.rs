@@ -50,7 +50,7 @@ impl Editor {
         match purpose {
             Purpose::OpenScene => self.leave(ctx, Next::Open(path)),
             Purpose::SaveScene => self.save_to(ctx, path),
-            Purpose::ExportPicture | Purpose::ExportShown => self.export_picture(purpose, path),
+            Purpose::ExportPicture | Purpose::ExportShown | Purpose::ExportDeep => self.export_picture(purpose, path),
             Purpose::ExportSurface => {
                 if let Some(surface) = surface_of(&self.document) {
                     self.export.write_surface(ctx, surface, path);
@@ -100,8 +100,7 @@ impl Editor {
 
     /// Continues the exports, and reports the finished exports.
     pub(crate) fn poll_export(&mut self, ctx: &Context) {
-        let film = self.document.scene().film;
-        for exported in self.export.poll(ctx, self.rendering.full_frame(), film) {
+        for exported in self.export.poll(ctx, self.rendering.full_frame(), self.viewpoint.seen()) {
             match exported.result {
                 Ok(()) => {
                     self.toasts.success(format!("Exported {}", exported.path.display()));

@@ -4,8 +4,8 @@ use crate::app::commands::Purpose;
 use crate::app::document::Document;
 use crate::engine::Frame;
 use crate::file::write_whole;
-use crate::film::{LinearImage, ToneMap, write_exr, write_png};
-use crate::scene::{Film, SurfaceExport, SurfaceFormat, SurfaceOptions};
+use crate::film::{LinearImage, PngDepth, Provenance, ToneMap, write_exr, write_png};
+use crate::scene::{Film, SceneFile, SurfaceExport, SurfaceFormat, SurfaceOptions};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use egui::Context;
 use std::path::{Path, PathBuf};
@@ -56,13 +56,17 @@ impl Export {
     }
 
     /// Writes the requested picture if `frame`, the newest frame that is no draft, exists. Returns the exports that have
-    /// finished since the last call.
-    pub(crate) fn poll(&mut self, ctx: &Context, frame: Option<&Arc<Frame>>, film: Film) -> Vec<Exported> {
+    /// finished since the last call. `seen` is the scene that the window shows.
+    pub(crate) fn poll(&mut self, ctx: &Context, frame: Option<&Arc<Frame>>, seen: &Arc<SceneFile>) -> Vec<Exported> {
         if let Some(frame) = frame
             && let Some((purpose, path)) = self.waiting.take()
         {
             let image = Arc::clone(if purpose == Purpose::ExportShown { frame.shown() } else { &frame.image });
-            self.spawn(ctx, purpose, path, move |path| write_picture(path, &image, &film));
+            let (frame, seen) = (Arc::clone(frame), Arc::clone(seen));
+            self.spawn(ctx, purpose, path, move |path| {
+                let depth = if purpose == Purpose::ExportDeep { PngDepth::Sixteen } else { PngDepth::Eight };
+                write_picture(path, &image, &seen.scene.film, depth, &provenance(&seen, &frame))
+            });
         }
         self.done.1.try_iter().collect()
     }
@@ -91,12 +95,29 @@ pub(crate) fn surface_of(document: &Document) -> Option<SurfaceExport> {
     selected.or_else(|| SurfaceExport::of(&scene.objects))
 }
 
-fn write_picture(path: &Path, image: &LinearImage, film: &Film) -> Result<(), String> {
+/// Where the picture of a frame comes from, which shows this scene.
+pub(crate) fn provenance(seen: &SceneFile, frame: &Frame) -> Provenance {
+    Provenance {
+        scene: Some(seen.snapshot()),
+        settings: Vec::new(),
+        iterations: frame.iteration,
+        error: frame.stats.error_estimate,
+        camera: Some(seen.scene.camera),
+    }
+}
+
+fn write_picture(
+    path: &Path,
+    image: &LinearImage,
+    film: &Film,
+    depth: PngDepth,
+    provenance: &Provenance,
+) -> Result<(), String> {
     let is_exr = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
     let written = if is_exr {
-        write_exr(path, image)
+        write_exr(path, image, provenance)
     } else {
-        write_png(path, image, &ToneMap::new(film.exposure, film.tone_curve))
+        write_png(path, image, &ToneMap::new(film.exposure, film.tone_curve), depth, provenance)
     };
     written.map_err(|error| error.to_string())
 }

@@ -78,7 +78,11 @@ fn file_ui(ui: &mut Ui, recent: &[PathBuf], commands: &mut Vec<AppCommand>) {
         }
     });
     ui.separator();
-    for action in [Action::Save, Action::SaveAs, Action::Export, Action::ExportShown, Action::ExportSurface] {
+    for action in [Action::Save, Action::SaveAs] {
+        item_ui(ui, action, action.label(), true, commands);
+    }
+    ui.separator();
+    for action in [Action::Export, Action::ExportShown, Action::ExportDeep, Action::ExportSurface] {
         item_ui(ui, action, action.label(), true, commands);
     }
     ui.separator();

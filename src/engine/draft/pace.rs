@@ -116,6 +116,11 @@ impl DraftPace {
         f64::from(coarseness) <= part * f64::from(self.last.coarseness)
     }
 
+    /// The present scene needs no drafts.
+    pub(in crate::engine) fn skip(&mut self) {
+        (self.last, self.next) = (DraftSize::FULL, None);
+    }
+
     /// The present scene's next draft of the whole film; `None` when iterations are due.
     pub(in crate::engine) fn next(&self) -> Option<DraftSize> {
         self.next

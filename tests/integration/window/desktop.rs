@@ -142,12 +142,13 @@ impl Desktop {
         image::load_from_memory(&output.stdout).expect("a screenshot is a PNG file").to_rgb8()
     }
 
-    /// Presses the left button at a screen pixel and moves the mouse by a way. The button stays down.
+    /// Presses the left button at a screen pixel and moves the mouse by a way. The button stays down. The pauses are longer than a slow
+    /// frame of the window: a press and a release in one frame are no drag.
     pub(super) fn drag(&self, (x, y): (i32, i32), (dx, dy): (i32, i32)) {
         const STEPS: i32 = 10;
         let at = |step: i32| [x + dx * step / STEPS, y + dy * step / STEPS].map(|pixel| pixel.to_string());
         let [left, top] = at(0);
-        self.xdotool(&["mousemove", &left, &top, "sleep", "0.3", "mousedown", "1", "sleep", "0.1"]);
+        self.xdotool(&["mousemove", &left, &top, "sleep", "0.3", "mousedown", "1", "sleep", "0.3"]);
         let moves: Vec<String> = (1..=STEPS)
             .flat_map(|step| {
                 let [x, y] = at(step);
@@ -157,8 +158,8 @@ impl Desktop {
         self.xdotool(&moves.iter().map(String::as_str).collect::<Vec<_>>());
     }
 
-    /// Releases the left button.
+    /// Releases the left button, after a frame has taken the last movement.
     pub(super) fn release(&self) {
-        self.xdotool(&["mouseup", "1"]);
+        self.xdotool(&["sleep", "0.3", "mouseup", "1"]);
     }
 }

@@ -2,7 +2,7 @@
 
 use patchlight::cli::write_hits;
 use patchlight::engine::{CheckpointFile, Run, Session};
-use patchlight::film::{LinearImage, read_exr, write_exr};
+use patchlight::film::{LinearImage, Provenance, read_exr, write_exr};
 use patchlight::scene::{Location, SceneFile};
 use patchlight::transport::Cancel;
 use std::path::Path;
@@ -82,7 +82,7 @@ pub(crate) fn exr(bytes: &[u8]) {
     with_file("fuzzed.exr", bytes, |path| match read_exr(path) {
         Err(error) => assert_names(&error.to_string(), "fuzzed.exr", false),
         Ok(image) => {
-            write_exr(path, &image).expect("the picture can be written");
+            write_exr(path, &image, &Provenance::default()).expect("the picture can be written");
             let again = read_exr(path).expect("the picture can be read");
             let bits =
                 |image: &LinearImage| image.pixels.iter().map(|p| p.to_array().map(f32::to_bits)).collect::<Vec<_>>();

@@ -2,7 +2,7 @@
 
 use super::bodies::scene_of_films;
 use patchlight::engine::{Checkpoint, Run, Session};
-use patchlight::film::{LinearImage, write_exr};
+use patchlight::film::{LinearImage, Provenance, write_exr};
 use patchlight::math::Rgb;
 use patchlight::transport::Cancel;
 
@@ -152,7 +152,7 @@ pub(super) fn exrs() -> Vec<Vec<u8>> {
 pub(super) fn exr_bytes(image: &LinearImage) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("picture.exr");
-    write_exr(&path, image).expect("the picture can be written");
+    write_exr(&path, image, &Provenance::default()).expect("the picture can be written");
     std::fs::read(&path).expect("the picture can be read")
 }
 
