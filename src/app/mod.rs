@@ -16,6 +16,7 @@
 //! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |
 //! | `canvas` | the picture with its handles: zoom, pick, drag |
 //! | `panels` | the side panels: outline, properties, progress |
+//! | `comparison` | snapshots of the picture, and comparisons of two pictures |
 //! | `files` | file dialogs, typed paths, exports |
 //! | `shell` | menu bar, status bar, notices, dialogs |
 //! | `editor` | all that the window shows and remembers, the one `apply`, the layout |
@@ -25,6 +26,7 @@
 
 mod canvas;
 mod commands;
+mod comparison;
 mod document;
 mod drag_replay;
 mod editor;

@@ -32,6 +32,7 @@ impl Window {
         let ctx = creation.egui_ctx.clone();
         let engine = Engine::start(EngineSettings::default(), move || ctx.request_repaint())?;
         let mut editor = Editor::new(file);
+        editor.open_snapshots();
         if let Some((folders, loaded)) = kept {
             editor.keep_in(&creation.egui_ctx, &folders, loaded);
         }
@@ -92,9 +93,7 @@ impl App for Window {
     fn logic(&mut self, ctx: &Context, _frame: &mut Frame) {
         self.exchange();
         self.editor.poll(ctx);
-        if ctx.input(|input| input.viewport().close_requested())
-            && !self.editor.may_close
-            && self.editor.document.is_dirty()
+        if ctx.input(|input| input.viewport().close_requested()) && !self.editor.may_close && self.editor.has_unsaved()
         {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.editor.apply(ctx, AppCommand::Leave(Next::Quit));

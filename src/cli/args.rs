@@ -39,6 +39,8 @@ pub(super) enum Command {
     Intersect(IntersectArguments),
     /// Write the Bezier patches of a scene as a mesh (.obj, .stl), control points (.bpt) or surfaces (.step)
     Export(ExportArguments),
+    /// Print the difference of two pictures: RMSE, relMSE, brightness
+    Compare(CompareArguments),
 }
 
 /// The settings of rendering.
@@ -266,6 +268,28 @@ pub(super) struct ExportArguments {
     /// Write Bezier surfaces (cstype bezier) in place of a mesh into an .obj file
     #[arg(long)]
     pub(super) free_form: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CompareArguments {
+    /// The picture
+    #[arg(value_name = "PICTURE.exr")]
+    pub(super) picture: PathBuf,
+    /// The picture to compare with
+    #[arg(value_name = "REF.exr")]
+    pub(super) reference: PathBuf,
+    /// Compare inside the mask, the bright pixels of this file
+    #[arg(long, value_name = "MASK.png")]
+    pub(super) mask: Option<PathBuf>,
+    /// Write the difference in false colours: blue where the picture is darker, red where it is brighter, in full at 25 %
+    #[arg(short, long, value_name = "OUT.png", value_parser = parse_png)]
+    pub(super) output: Option<PathBuf>,
+}
+
+fn parse_png(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+    is_png.then_some(path).ok_or_else(|| "expected a name that ends in .png".to_owned())
 }
 
 fn parse_iterations(text: &str) -> Result<Iterations, String> {

@@ -10,13 +10,14 @@
 //! | `checkpoints` | checkpoints of `render`: begins, goes on, saves |
 //! | `rendering` | the thread pool, timed iterations |
 //! | `progress`, `statistics` | the progress bar and `--stats` of `render` |
-//! | `render`, `merge`, `check`, `export` | the commands of these names |
+//! | `render`, `merge`, `check`, `export`, `compare` | the commands of these names |
 //! | `intersect/`, `bench/` | the commands of these names |
 
 mod args;
 mod bench;
 mod check;
 mod checkpoints;
+mod compare;
 mod error;
 mod export;
 mod interrupt;
@@ -55,5 +56,6 @@ pub fn run(arguments: Arguments, open_window: impl FnOnce(SceneFile) -> Result<(
         Some(Command::Check(check)) => check::check(&check),
         Some(Command::Intersect(intersect)) => intersect::intersect(&intersect),
         Some(Command::Export(export)) => export::export(&export),
+        Some(Command::Compare(pictures)) => compare::compare_pictures(&pictures),
     }
 }

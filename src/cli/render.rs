@@ -75,10 +75,10 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
 /// What the picture's file tells of its provenance.
 fn provenance(file: &SceneFile, arguments: &RenderArguments, frame: &Frame) -> Provenance {
     let RenderSettings { seed, only, .. } = arguments.settings;
-    let only = only.map(|only| ("Only", format!("{:?}", Component::from(only)).to_lowercase()));
+    let only = only.map(|only| ("Only".to_owned(), format!("{:?}", Component::from(only)).to_lowercase()));
     Provenance {
         scene: Some(file.snapshot()),
-        settings: [("Seed", seed.to_string())].into_iter().chain(only).collect(),
+        settings: [("Seed".to_owned(), seed.to_string())].into_iter().chain(only).collect(),
         iterations: frame.iteration,
         error: frame.stats.error_estimate,
         camera: Some(file.scene.camera),

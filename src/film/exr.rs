@@ -82,7 +82,7 @@ pub fn read_exr(path: &Path) -> Result<LinearImage, ImageError> {
     read_exr_with_provenance(path).map(|(image, _)| image)
 }
 
-/// [`read_exr`], with what the file tells of the picture's provenance, without its camera and settings.
+/// [`read_exr`], with what the file tells of the picture's provenance, without its camera.
 ///
 /// # Errors
 ///

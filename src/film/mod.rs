@@ -9,8 +9,10 @@
 //! | `png` | [`write_png`]; [`Mask`]: the pixels that a comparison includes |
 //! | `exr` | [`read_exr`], [`write_exr`], [`read_exr_with_provenance`] |
 //! | `metrics` | [`Errors`]: RMSE, relMSE and bias against a reference |
+//! | `difference` | [`difference_image`]: false colours |
 //! | `flip` | the FLIP metric, with the feature `flip` |
 
+mod difference;
 mod error;
 mod exr;
 #[cfg(feature = "flip")]
@@ -23,6 +25,7 @@ mod tone;
 
 pub use self::exr::{read_exr, read_exr_with_provenance, write_exr};
 pub use self::image::LinearImage;
+pub use difference::{FULL_DIFFERENCE, difference_color, difference_image};
 pub use error::ImageError;
 #[cfg(feature = "flip")]
 pub use flip::{flip, mean_inside};

@@ -60,7 +60,7 @@ fn encoded(
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     encoder.add_text_chunk("Software".to_owned(), Provenance::SOFTWARE.to_owned())?;
     for (name, value) in provenance.fields() {
-        encoder.add_itxt_chunk(name.to_owned(), value)?;
+        encoder.add_itxt_chunk(name, value)?;
     }
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&data)?;

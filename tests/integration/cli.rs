@@ -195,6 +195,50 @@ fn a_file_of_control_points_is_shown_as_a_scene() {
 }
 
 #[test]
+fn two_pictures_are_compared_in_numbers_and_colours() {
+    let dir = folder();
+    for (seed, name) in [("1", "a.exr"), ("2", "b.exr"), ("1", "c.exr")] {
+        let arguments = ["render", "ball.toml", "-o", name, "--iterations", "2", "--size", "32x32", "--seed", seed];
+        assert!(patchlight(dir.path(), &arguments).status.success());
+    }
+    let compared = |arguments: &[&str]| {
+        let run = patchlight(dir.path(), &[&["compare"], arguments].concat());
+        assert!(run.status.success(), "{}", stderr(&run));
+        String::from_utf8(run.stdout).unwrap()
+    };
+    let same = compared(&["a.exr", "c.exr"]);
+    assert!(same.contains("pixels          1024") && same.contains("RMSE            0.000000e0"), "{same}");
+    let other = compared(&["a.exr", "b.exr", "-o", "difference.png"]);
+    assert!(!other.contains("RMSE            0.000000e0"), "{other}");
+    let colors = image::open(dir.path().join("difference.png")).unwrap().into_rgb8();
+    let [first, ..] = colors.pixels().collect::<Vec<_>>()[..] else { panic!("there are pixels") };
+    assert!(colors.dimensions() == (32, 32) && colors.pixels().any(|pixel| pixel != first), "there is noise");
+    fails(&patchlight(dir.path(), &["compare", "a.exr", "b.exr", "-o", "a.exr"]), 2, &["ends in .png"]);
+    fails(&patchlight(dir.path(), &["compare", "a.exr", "missing.exr"]), 2, &["missing.exr: cannot be read"]);
+    let small = ["render", "ball.toml", "-o", "small.exr", "--iterations", "1", "--size", "16x16"];
+    assert!(patchlight(dir.path(), &small).status.success());
+    fails(&patchlight(dir.path(), &["compare", "a.exr", "small.exr"]), 2, &["16 x 16", "32 x 32"]);
+}
+
+/// The scene of a picture's file renders the same picture again.
+#[test]
+fn a_picture_tells_its_scene() {
+    let dir = folder();
+    let first = ["render", "ball.toml", "-o", "a.exr", "--iterations", "2", "--size", "32x24", "--seed", "5"];
+    assert!(patchlight(dir.path(), &first).status.success());
+    let (image, told) = patchlight::film::read_exr_with_provenance(&dir.path().join("a.exr")).unwrap();
+    assert_eq!(told.iterations, 2);
+    assert!(told.settings.contains(&("Seed".to_owned(), "5".to_owned())), "{:?}", told.settings);
+    fs::write(dir.path().join("again.toml"), told.scene.unwrap()).unwrap();
+    let again = ["render", "again.toml", "-o", "b.exr", "--iterations", "2", "--seed", "5"];
+    assert!(patchlight(dir.path(), &again).status.success());
+    assert_eq!(patchlight::film::read_exr(&dir.path().join("b.exr")).unwrap(), image);
+    let deep = ["render", "ball.toml", "-o", "a.png", "--iterations", "1", "--size", "8x8", "--png-bits", "16"];
+    assert!(patchlight(dir.path(), &deep).status.success());
+    assert_eq!(image::open(dir.path().join("a.png")).unwrap().color(), image::ColorType::Rgb16);
+}
+
+#[test]
 fn no_output_overwrites_the_scene_or_another_output() {
     let dir = folder();
     fs::write(dir.path().join("scene.png"), SCENE).unwrap();

@@ -5,6 +5,7 @@
 //! | `view` | zoom and pan: the map between film pixels and screen points |
 //! | `projection` | the pinhole camera: the map between world space and film pixels |
 //! | `pixels` | the grid and the numbers of magnified pixels |
+//! | `split` | a second picture to the right of a line |
 //! | `drag` | the position of a dragged handle |
 //! | `picking` | the surfaces of the objects, and the nearest along a ray |
 //! | `free_space` | [`free_ball`]: the place of a new item in the picture |
@@ -50,6 +51,7 @@ mod rectangle;
 mod scenery;
 mod sight;
 mod snap;
+mod split;
 mod stage;
 mod steering;
 mod view;

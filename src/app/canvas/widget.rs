@@ -7,6 +7,7 @@ use super::navigation::Navigation;
 use super::pixels;
 use super::projection::Projection;
 use super::sight::Sight;
+use super::split::{paint_beside, split_ui};
 use super::stage::Stage;
 use super::view::{ScreenTransform, View};
 use crate::app::commands::AppCommand;
@@ -65,6 +66,8 @@ pub(crate) struct Picture<'a> {
     pub(crate) image: Option<&'a LinearImage>,
     /// Whether the picture shows the present scene, or soon will; any other picture is dimmed.
     pub(crate) current: bool,
+    /// The picture to the right of a line, and the line's place from 0 at the left to 1 at the right.
+    pub(crate) beside: Option<(&'a egui::TextureHandle, f32)>,
 }
 
 impl Canvas {
@@ -88,11 +91,17 @@ impl Canvas {
         };
         self.transform = Some(transform);
         paint_picture(ui, &transform, picture);
+        if let Some((texture, split)) = picture.beside {
+            paint_beside(ui, &transform, texture, split);
+        }
         if picture.texture.is_some() {
             pixels::paint_pixels(&ui.painter_at(rect), &transform, &seen.film, picture.image);
         }
         if !ui.is_enabled() {
             self.grasp.release();
+        }
+        if let Some((_, split)) = picture.beside {
+            split_ui(ui, &transform, split, commands);
         }
         let pointer = response.contains_pointer().then(|| ui.input(|input| input.pointer.hover_pos())).flatten();
         self.pixel = pointer.and_then(|pointer| transform.pixel(pointer));

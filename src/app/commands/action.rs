@@ -55,6 +55,11 @@ pub(crate) enum Action {
     ToggleGaussianCurvature,
     ToggleZebra,
     ToggleLightPaths,
+    TakeSnapshot,
+    OpenReference,
+    CompareFlip,
+    CompareSplit,
+    CompareDifference,
     TogglePanels,
     FullScreen,
     Palette,
@@ -138,6 +143,11 @@ const TABLE: &[Row] = &[
     (Action::ToggleMeanCurvature, "Show mean curvature", &[(NONE, Key::K)]),
     (Action::ToggleGaussianCurvature, "Show Gaussian curvature", &[(Modifiers::SHIFT, Key::K)]),
     (Action::ToggleLightPaths, "Show light paths", &[(Modifiers::ALT, Key::K)]),
+    (Action::TakeSnapshot, "Take snapshot", &[(NONE, Key::T)]),
+    (Action::OpenReference, "Open reference picture…", &[]),
+    (Action::CompareFlip, "Flip to the snapshot", &[(NONE, Key::C)]),
+    (Action::CompareSplit, "Compare side by side", &[(Modifiers::SHIFT, Key::C)]),
+    (Action::CompareDifference, "Show the difference", &[(NONE, Key::D)]),
     (Action::TogglePanels, "Show panels", &[(CTRL, Key::B)]),
     (Action::FullScreen, "Full screen", &[(NONE, Key::F11)]),
     (Action::Palette, "Find a command…", &[(CTRL, Key::P)]),
@@ -190,6 +200,13 @@ impl Action {
             Self::ToggleSmoothing => {
                 "Takes noise out of the interreflection that the screen shows while the picture has few photons. The picture itself, \
                  exports and the error estimate stay as they are."
+            }
+            Self::TakeSnapshot => "Keeps the picture and its scene, to compare with them and to go back to them",
+            Self::OpenReference => "A picture of an OpenEXR file, to compare with",
+            Self::CompareFlip => "Shows the chosen snapshot in place of the picture, and back",
+            Self::CompareSplit => "The chosen snapshot to the right of a line that the pointer drags",
+            Self::CompareDifference => {
+                "False colours: blue where the picture is darker than the snapshot, red where it is brighter; with RMSE, relMSE and FLIP"
             }
             Self::NextMirror => "Moves control points in pairs, mirrored across a plane: off, x, y, z in turn",
             _ => "",

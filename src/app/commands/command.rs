@@ -1,6 +1,7 @@
 //! Every request of the user. The editor's `apply` alone carries requests out.
 
 use super::action::Action;
+use super::comparison::SnapshotCommand;
 use super::length_unit::LengthUnit;
 use super::purpose::Purpose;
 use crate::app::document::surface::Coupling;
@@ -58,6 +59,8 @@ pub(crate) enum AppCommand {
     Target(Option<f64>),
     /// Ask for a file to export the surface to.
     ExportSurface(SurfaceOptions),
+    /// Take, compare or restore snapshots.
+    Snapshot(SnapshotCommand),
     /// Snap to a grid with this step, scene units; `None` for the automatic step.
     Grid(Option<f64>),
     /// Name the unit of lengths.

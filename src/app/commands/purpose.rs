@@ -17,6 +17,8 @@ pub(crate) enum Purpose {
     ExportSurface,
     AddSurface,
     AddTexture,
+    /// A picture to compare with.
+    OpenReference,
 }
 
 impl Purpose {
@@ -31,6 +33,7 @@ impl Purpose {
             Self::ExportSurface => "Export surface",
             Self::AddSurface => "Add patches",
             Self::AddTexture => "Add texture",
+            Self::OpenReference => "Open reference picture",
         }
     }
 
@@ -45,6 +48,7 @@ impl Purpose {
             Self::ExportSurface => "export-surface",
             Self::AddSurface => "add-surface",
             Self::AddTexture => "add-texture",
+            Self::OpenReference => "open-reference",
         }
     }
 
@@ -53,7 +57,7 @@ impl Purpose {
     pub(crate) fn of_dropped(path: &Path) -> Option<Self> {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
         let allows = |purpose: &Self| purpose.extensions().iter().any(|known| extension.as_deref() == Some(known));
-        [Self::OpenScene, Self::AddSurface, Self::AddTexture].into_iter().find(allows)
+        [Self::OpenScene, Self::AddSurface, Self::AddTexture, Self::OpenReference].into_iter().find(allows)
     }
 
     /// Whether the file is written, not read.
@@ -73,6 +77,7 @@ impl Purpose {
             Self::ExportSurface => &SurfaceFormat::EXTENSIONS,
             Self::AddSurface => &PatchFormat::EXTENSIONS,
             Self::AddTexture => &["png", "jpg", "jpeg"],
+            Self::OpenReference => &["exr"],
         }
     }
 
@@ -86,6 +91,7 @@ impl Purpose {
             Self::ExportSurface => ".obj or .stl (mesh), .bpt (control points), .step (surfaces)",
             Self::AddSurface => ".bpt, .obj, .pov, .rib (bicubic Bezier patches)",
             Self::AddTexture => ".png or .jpg (image)",
+            Self::OpenReference => ".exr (linear picture)",
         }
     }
 }

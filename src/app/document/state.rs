@@ -192,6 +192,16 @@ impl Document {
         self.has_file(Some(stamp));
     }
 
+    /// Takes the scene of a snapshot of this name as the present one. An undo step leads back.
+    pub(crate) fn restore(&mut self, file: &Arc<SceneFile>, name: &str) {
+        self.history.end_gesture();
+        let before = (Arc::clone(&self.file), self.selection.clone());
+        self.history.record(before, ("restore", 0), || format!("restore {name}"));
+        self.history.end_gesture();
+        self.file = Arc::clone(file);
+        self.selection = std::mem::take(&mut self.selection).within(&self.file.scene);
+    }
+
     /// Keeps the present scene, although another program has written its file with this stamp.
     pub(crate) fn keep_over(&mut self, stamp: Stamp) {
         self.has_file(Some(stamp));

@@ -1,7 +1,7 @@
 //! The one place that carries out commands.
 
 use super::state::Editor;
-use crate::app::commands::{Action, AppCommand, Next, Purpose};
+use crate::app::commands::{Action, AppCommand, Comparison, Next, Purpose};
 use crate::app::document::surface::Cut;
 use crate::app::document::{Direction, Edit, Item, new_items, user_of};
 use crate::app::shell::{Dialog, Palette};
@@ -44,6 +44,7 @@ impl Editor {
             AppCommand::CloseDialog => self.close_dialog(),
             AppCommand::CloseHint => self.show_hint = false,
             AppCommand::ExportSurface(options) => self.ask_for_surface_path(ctx, options),
+            AppCommand::Snapshot(command) => self.change_snapshots(command),
             AppCommand::Grid(step) => self.canvas.grasp.grid = step,
             AppCommand::LengthUnit(unit) => self.length_unit = unit,
             AppCommand::Theme(theme) => ctx.set_theme(theme),
@@ -100,6 +101,11 @@ impl Editor {
             | Action::ToggleGaussianCurvature
             | Action::ToggleZebra => self.canvas.analysis.analysis.toggle(action),
             Action::ToggleLightPaths => self.canvas.light_paths.on = !self.canvas.light_paths.on,
+            Action::TakeSnapshot => self.take_snapshot(),
+            Action::OpenReference => self.ask_for_path(ctx, Purpose::OpenReference),
+            Action::CompareFlip => self.toggle_comparison(Comparison::Flip),
+            Action::CompareSplit => self.toggle_comparison(Comparison::Split),
+            Action::CompareDifference => self.toggle_comparison(Comparison::Difference),
             Action::TogglePanels => self.show_panels = !self.show_panels,
             Action::FullScreen => toggle_full_screen(ctx),
             Action::Palette => self.dialog = Some(Dialog::Palette(Palette::default())),

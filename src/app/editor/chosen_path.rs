@@ -57,6 +57,7 @@ impl Editor {
                 }
             }
             Purpose::AddSurface => self.add_surface(&path),
+            Purpose::OpenReference => self.add_reference(&path),
             Purpose::AddTexture => match new_items::texture(self.document.scene(), &path) {
                 Ok(texture) => self.document.edit(Edit::AddTexture(texture)),
                 Err(error) => self.dialog = Some(Dialog::Error("The texture cannot be added".to_owned(), error)),

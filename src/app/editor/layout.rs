@@ -3,6 +3,7 @@
 use super::state::Editor;
 use crate::app::canvas::Picture;
 use crate::app::commands::{AppCommand, action};
+use crate::app::comparison::{Shown, strip_ui};
 use crate::app::panels::{outline_ui, progress_ui, properties_ui, refusals};
 use crate::app::rendering::Sampling;
 use crate::app::shell::{
@@ -31,6 +32,7 @@ impl Editor {
             self.display.show(ctx, frame.shown(), &self.viewpoint.seen().scene.film);
         }
         self.display.poll(ctx);
+        self.poll_snapshots(ctx);
     }
 
     /// Draws the window's content, then carries out the user's requests.
@@ -48,6 +50,12 @@ impl Editor {
         self.bars_ui(ui, &mut commands);
         if self.show_panels {
             self.panels_ui(ui, &mut commands);
+        }
+        if self.show_panels && !self.snapshots.is_empty() {
+            Panel::bottom("snapshots").show(ui, |ui| {
+                let present = self.rendering.frame().map(|frame| &frame.image);
+                strip_ui(ui, &self.snapshots, present, &mut commands);
+            });
         }
         CentralPanel::no_frame().show(ui, |ui| self.canvas_ui(ui, &mut commands));
         if let Some(dialog) = &mut self.dialog {
@@ -137,11 +145,17 @@ impl Editor {
     fn canvas_ui(&mut self, ui: &mut Ui, commands: &mut Vec<AppCommand>) {
         let canvas = ui.available_rect_before_wrap();
         let film = &self.viewpoint.seen().scene.film;
-        let image = self.rendering.frame().map(|frame| &*frame.image);
+        let present = self.rendering.frame().map(|frame| &frame.image);
+        let compared = self.snapshots.shown(present);
+        let (texture, image) = match &compared {
+            Some(Shown { texture: Some(texture), image, .. }) => (Some(*texture), *image),
+            _ => (self.display.texture(), present.map(|image| &**image)),
+        };
         let picture = Picture {
-            texture: self.display.texture(),
+            texture,
             image: image.filter(|image| (image.width, image.height) == (film.width, film.height)),
-            current: self.rendering.is_current(),
+            current: self.rendering.is_current() || compared.as_ref().is_some_and(|shown| shown.texture.is_some()),
+            beside: compared.as_ref().and_then(|shown| shown.beside),
         };
         self.canvas.show(ui, &self.document, &self.viewpoint.seen().scene, picture, commands);
         // In this frame, because no other may follow.

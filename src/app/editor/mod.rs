@@ -6,6 +6,7 @@
 //! | `state` | [`Editor`]: all that the window shows and remembers |
 //! | `views` | changes the camera that the window shows the scene with |
 //! | `path_request` | asks the user for a path, by file dialog or by path field |
+//! | `comparing` | takes, compares, restores and keeps snapshots |
 //! | `scenes` | opens, saves and leaves scenes |
 //! | `recovery` | writes unsaved changes, and recovers those of former windows |
 //! | `preferences` | applies and remembers the looks of the window |
@@ -21,6 +22,7 @@
 mod adding;
 mod apply;
 mod chosen_path;
+mod comparing;
 mod keeping;
 mod layout;
 mod opened_scene;

@@ -14,7 +14,7 @@ impl Editor {
     /// Leaves the present scene, or asks first while changes are unsaved. A scene that does not open is reported without a
     /// question.
     pub(crate) fn leave(&mut self, ctx: &Context, next: Next) {
-        if !self.document.is_dirty() {
+        if !self.has_unsaved() {
             return self.proceed(ctx, next);
         }
         if let Next::Open(path) = &next {
@@ -69,6 +69,7 @@ impl Editor {
         }
         self.toasts.success(format!("Saved {}", path.display()));
         self.recent.add(&path);
+        self.save_snapshots(&path);
         self.unreadable = None;
         let rendered = self.rendering.renders(self.viewpoint.seen());
         self.document.saved_as(path, file);
@@ -135,6 +136,7 @@ impl Editor {
     /// Replaces the document by another one, and shows the whole picture.
     pub(crate) fn replace_document(&mut self, document: Document) {
         self.document = document;
+        self.open_snapshots();
         self.viewpoint.look(None);
         self.visited = Visited::new(self.document.scene().camera);
         self.unreadable = None;

@@ -3,6 +3,7 @@
 use super::opened_scene::OpenedScene;
 use crate::app::canvas::Canvas;
 use crate::app::commands::{LengthUnit, Next};
+use crate::app::comparison::Snapshots;
 use crate::app::document::{Document, Stamp};
 use crate::app::files::{Chooser, Export};
 use crate::app::keeping::{
@@ -26,6 +27,9 @@ pub(crate) struct Editor {
     /// The size of the canvas, screen pixels.
     pub(crate) canvas_size: RestingSize,
     pub(crate) display: Display,
+    pub(crate) snapshots: Snapshots,
+    /// Whether a snapshot waits for the end of a draft.
+    pub(crate) wants_snapshot: bool,
     pub(crate) chooser: Chooser,
     pub(crate) export: Export,
     pub(crate) autosave: Autosave,
@@ -70,6 +74,8 @@ impl Editor {
             canvas: Canvas::default(),
             canvas_size: RestingSize::default(),
             display: Display::default(),
+            snapshots: Snapshots::default(),
+            wants_snapshot: false,
             chooser: Chooser::default(),
             export: Export::default(),
             autosave: Autosave::default(),

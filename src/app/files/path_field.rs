@@ -101,7 +101,7 @@ impl PathField {
             _ if replaces => "Replace",
             Purpose::ExportPicture | Purpose::ExportShown | Purpose::ExportDeep | Purpose::ExportSurface => "Export",
             Purpose::SaveScene => "Save",
-            Purpose::OpenScene | Purpose::AddSurface | Purpose::AddTexture => "Open",
+            Purpose::OpenScene | Purpose::AddSurface | Purpose::AddTexture | Purpose::OpenReference => "Open",
         };
         let is_entered = !self.text.trim().is_empty();
         let selection = ui.visuals().selection;

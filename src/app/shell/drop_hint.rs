@@ -9,8 +9,11 @@ pub(crate) fn drop_hint(purpose: Option<Purpose>) -> &'static str {
     match purpose {
         Some(Purpose::AddSurface) => "Drop the file to add its patches to the scene.",
         Some(Purpose::AddTexture) => "Drop the file to add it as a texture.",
+        Some(Purpose::OpenReference) => "Drop the file to compare the picture with it.",
         Some(_) => "Drop the file to open it as a scene.",
-        None => "The window reads .toml scenes, patches (.bpt, .obj, .pov, .rib), and .png and .jpg textures.",
+        None => {
+            "The window reads .toml scenes, patches (.bpt, .obj, .pov, .rib), .png and .jpg textures, and .exr references."
+        }
     }
 }
 
@@ -40,7 +43,8 @@ mod tests {
         let hint = |path: &str| drop_hint(Purpose::of_dropped(Path::new(path)));
         assert!(hint("a/b.TOML").contains("scene") && hint("pot.bpt").contains("patches"));
         assert!(hint("wood.jpg").contains("texture"));
-        assert_eq!(hint("picture.exr"), drop_hint(None));
+        assert!(hint("picture.EXR").contains("compare"));
+        assert_eq!(hint("picture.hdr"), drop_hint(None));
         assert_eq!(hint("README"), drop_hint(None));
     }
 }

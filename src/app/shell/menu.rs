@@ -150,6 +150,16 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
     }
     check_ui(ui, Action::ToggleLightPaths, visible.light_paths, commands);
     ui.separator();
+    for action in [
+        Action::TakeSnapshot,
+        Action::OpenReference,
+        Action::CompareFlip,
+        Action::CompareSplit,
+        Action::CompareDifference,
+    ] {
+        item_ui(ui, action, action.label(), true, commands);
+    }
+    ui.separator();
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
     ui.separator();
     ui.menu_button("Unit of length", |ui| {

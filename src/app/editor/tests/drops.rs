@@ -58,7 +58,7 @@ fn a_dropped_picture_becomes_a_texture_and_a_dropped_scene_is_opened() {
 fn a_dropped_file_that_cannot_be_opened_asks_no_question() {
     let (mut ui, folder) = (open("cornell"), folder());
     edit(&mut ui);
-    drop_file(&mut ui, "picture.exr".into());
+    drop_file(&mut ui, "picture.hdr".into());
     assert_eq!((ui.state().toasts.len(), &ui.state().dialog), (1, &None), "a message, no question");
     let broken = folder.path().join("broken.toml");
     std::fs::write(&broken, "version = \"one\"").unwrap();

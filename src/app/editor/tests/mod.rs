@@ -3,6 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `canvas` | selecting and dragging handles; zoom and pan |
+//! | `comparison` | snapshots, and comparisons with them |
 //! | `navigation` | orbit, pan and dolly of the camera |
 //! | `viewpoint` | looking around, matching the window |
 //! | `grasp` | the gizmo, snapping, soft selection, arrow keys, hidden handles |
@@ -24,6 +25,7 @@
 
 mod analysis;
 mod canvas;
+mod comparison;
 mod drops;
 mod exports;
 mod fields;
