@@ -16,6 +16,7 @@
 //! | `rendering` | the engine as the window sees it: commands out, frames in, the texture |
 //! | `canvas` | the picture with its handles: zoom, pick, drag |
 //! | `panels` | the side panels: outline, properties, progress |
+//! | `inspection` | what the picture measures: irradiance, error, distance; albedo and normals |
 //! | `comparison` | snapshots of the picture, and comparisons of two pictures |
 //! | `files` | file dialogs, typed paths, exports |
 //! | `shell` | menu bar, status bar, notices, dialogs |
@@ -31,6 +32,7 @@ mod document;
 mod drag_replay;
 mod editor;
 mod files;
+mod inspection;
 mod keeping;
 mod keyboard;
 mod panels;

@@ -83,6 +83,8 @@ pub(crate) mod overlay {
     pub(crate) const CAUSTIC_EDGE: Color32 = Color32::from_rgb(255, 80, 170);
     /// The ways of light in the room.
     pub(crate) const LIGHT_WAY: Color32 = Color32::from_rgba_premultiplied(36, 33, 14, 36);
+    /// A pixel without a number.
+    pub(crate) const NO_VALUE: Color32 = Color32::from_gray(58);
     /// The background and the text of a legend over the picture.
     pub(crate) const LEGEND: Color32 = Color32::from_rgba_premultiplied(16, 17, 20, 225);
     pub(crate) const LEGEND_TEXT: Color32 = Color32::from_rgb(230, 232, 238);

@@ -246,6 +246,25 @@ impl FilmSums {
         (mean > 0.0).then(|| (squared_noise + squared_hidden).sqrt() / mean)
     }
 
+    /// The standard deviation of the noise of each pixel, radiance, by one difference between the first and the later iterations: a rough
+    /// number at a single pixel. `None` before there are later ones.
+    pub fn pixel_noise(&self) -> Option<Vec<f32>> {
+        let other_weight = self.weight - self.first_weight;
+        let pixel = |(all, first): (&PixelSums, &PixelSums)| {
+            let other = *all - *first;
+            let part = |first: f64, other: f64| (first * other).sqrt() / (first + other);
+            let photons = first.photons / self.first_weight - other.photons / other_weight;
+            let samples = first.mean_sample() - other.mean_sample();
+            let samples_part = match first.samples_weight.min(other.samples_weight) > 0.0 {
+                true => part(first.samples_weight, other.samples_weight),
+                false => 0.0,
+            };
+            let noise = part(self.first_weight, other_weight) * photons + samples_part * samples;
+            (noise.length_squared() / 3.0).sqrt() as f32
+        };
+        (other_weight > 0.0 && self.first_weight > 0.0).then(|| self.all.iter().zip(&self.first).map(pixel).collect())
+    }
+
     /// The differences between the first and the later iterations; `None` where one of the two sets is empty.
     fn differences(&self) -> Option<Differences> {
         let other_weight = self.weight - self.first_weight;

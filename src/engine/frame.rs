@@ -1,5 +1,6 @@
 //! A picture and its statistics.
 
+use super::g_buffer::GBuffer;
 use crate::film::LinearImage;
 use crate::transport::{Counters, Energy, PathEnergy, PlanItem, PlanNote};
 use crate::world::Warning;
@@ -22,6 +23,11 @@ pub struct Frame {
     pub preview: Option<Arc<LinearImage>>,
     /// Whether the preview has less noise in its interreflection than the picture.
     pub smoothed: bool,
+    /// What the pixels show; `None` before the first iteration.
+    pub g_buffer: Option<Arc<GBuffer>>,
+    /// Standard deviation of the noise of each pixel, radiance, by two sets of iterations; `None` before there are two, and unless it was
+    /// asked for.
+    pub noise: Option<Arc<Vec<f32>>>,
     /// Statistics of the rendering so far.
     pub stats: Stats,
     /// The decisions of the plan.

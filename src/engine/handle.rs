@@ -54,6 +54,11 @@ impl Engine {
                 let generation = self.shared.generation.fetch_add(1, Ordering::AcqRel) + 1;
                 request.restart = Some(generation);
             }
+            Command::Only(only) => {
+                let generation = self.shared.generation.fetch_add(1, Ordering::AcqRel) + 1;
+                (request.restart, request.only) = (Some(generation), only);
+            }
+            Command::Noise(noise) => request.noise = noise,
             Command::Pause => request.paused = true,
             Command::Resume => request.paused = false,
             Command::Target(target) => request.target = target,

@@ -1,6 +1,7 @@
 //! Commands to the engine, its settings, its status and its errors.
 
 use crate::scene::SceneFile;
+use crate::transport::Component;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -28,6 +29,10 @@ pub enum Command {
     Target(Option<f64>),
     /// Whether [`Frame::preview`](super::Frame::preview) has less noise in its interreflection than the picture.
     Smooth(bool),
+    /// Renders this component of the light alone, or all; begins the present scene anew.
+    Only(Option<Component>),
+    /// Whether frames have [`Frame::noise`](super::Frame::noise).
+    Noise(bool),
 }
 
 /// The state of the engine.

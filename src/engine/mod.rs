@@ -6,6 +6,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `messages` | commands, status, settings |
+//! | `g_buffer` | what the pixels of a picture show |
 //! | `frame` | a picture and its statistics |
 //! | `convergence_rates` | how fast the noise of stratified samples falls |
 //! | `film_sums` | sums over iterations, and the error estimate |
@@ -32,6 +33,7 @@ mod film_merge;
 mod film_part;
 mod film_sums;
 mod frame;
+mod g_buffer;
 mod handle;
 mod iteration;
 mod messages;
@@ -44,10 +46,11 @@ mod visited;
 mod worker;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointFile};
-pub use draft::{Draft, GBuffer};
+pub use draft::Draft;
 pub use film_part::FilmPart;
 pub use film_sums::{FilmSums, MOST_ITERATIONS};
 pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, SheetShare, Stats};
+pub use g_buffer::GBuffer;
 pub use handle::Engine;
 pub use iteration::iterate;
 pub use messages::{Command, EngineError, EngineSettings, Status};

@@ -1,10 +1,11 @@
 //! The rendering of one scene.
 
 use super::display::Interreflection;
-use super::draft::{Draft, GBuffer};
+use super::draft::Draft;
 use super::film_part::FilmPart;
 use super::film_sums::FilmSums;
 use super::frame::{Frame, PlanSummary, Stats};
+use super::g_buffer::GBuffer;
 use super::iteration::{Light, iterate, see, trace_light};
 use super::pass_meter::{PassMeter, Work};
 use crate::film::LinearImage;
@@ -342,8 +343,19 @@ impl Session {
     }
 
     fn frame_of(&self, generation: u64, image: Arc<LinearImage>, iteration: u64, stats: Stats) -> Frame {
-        let plan = self.summary.clone();
-        Frame { generation, draft: false, iteration, image, preview: None, smoothed: false, stats, plan }
+        let (plan, g_buffer) = (self.summary.clone(), self.g_buffer.clone());
+        Frame {
+            generation,
+            draft: false,
+            iteration,
+            image,
+            preview: None,
+            smoothed: false,
+            g_buffer,
+            noise: None,
+            stats,
+            plan,
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::frame::Frame;
 use super::messages::Status;
 use crate::scene::SceneFile;
+use crate::transport::Component;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -20,6 +21,10 @@ pub(super) struct Request {
     pub(super) target: Option<f64>,
     /// Whether previews have less noise in their interreflection.
     pub(super) smooth: bool,
+    /// The component of the light to render; `None` for all.
+    pub(super) only: Option<Component>,
+    /// Whether frames tell the noise of their pixels.
+    pub(super) noise: bool,
     /// Whether to end the thread.
     pub(super) quit: bool,
 }

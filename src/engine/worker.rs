@@ -1,7 +1,8 @@
 //! The worker thread: prepares the newest scene, drafts it, and renders iterations until a newer scene arrives.
 
-use super::draft::{Draft, DraftPace, GBuffer, Preview, Upsampling, detail_coarseness, shows_the_same};
+use super::draft::{Draft, DraftPace, Preview, Upsampling, detail_coarseness};
 use super::frame::Frame;
+use super::g_buffer::{GBuffer, shows_the_same};
 use super::messages::Status;
 use super::session::{Session, SessionError};
 use super::shared::Shared;
@@ -9,7 +10,7 @@ use super::stand_in::StandIn;
 use super::visited::Visited;
 use crate::film::LinearImage;
 use crate::scene::SceneFile;
-use crate::transport::Cancel;
+use crate::transport::{Cancel, Component};
 use crate::world::Camera;
 use crossbeam_channel::Receiver;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -45,6 +46,10 @@ pub(super) struct Worker {
     smoothed: Option<Arc<LinearImage>>,
     /// Whether previews have less noise in their interreflection.
     smooth: bool,
+    /// The component of the light that is rendered; `None` for all.
+    only: Option<Component>,
+    /// Whether frames tell the noise of their pixels.
+    noise: bool,
     last_frame: Option<Instant>,
 }
 
@@ -72,6 +77,8 @@ impl Worker {
             preview: None,
             smoothed: None,
             smooth: false,
+            only: None,
+            noise: false,
             last_frame: None,
         }
     }
@@ -79,12 +86,12 @@ impl Worker {
     /// Works until the engine is dropped.
     pub(super) fn run(mut self) {
         loop {
-            let shows_smooth = self.smooth;
+            let shown = (self.smooth, self.noise);
             let Demands { quit, paused, target } = self.take_demands();
             if quit {
                 return;
             }
-            if self.smooth != shows_smooth {
+            if (self.smooth, self.noise) != shown {
                 self.publish_if(|iterations| iterations > 0);
             }
             let rest = match &self.session {
@@ -117,7 +124,7 @@ impl Worker {
     fn take_demands(&mut self) -> Demands {
         let mut request = self.shared.request();
         let demands = Demands { quit: request.quit, paused: request.paused, target: request.target };
-        self.smooth = request.smooth;
+        (self.smooth, self.only, self.noise) = (request.smooth, request.only, request.noise);
         let restart = request.restart.take();
         let scene = request.scene.take();
         drop(request);
@@ -148,7 +155,7 @@ impl Worker {
         let previous = self.rendered.take().zip(self.session.take());
         let known = previous.as_ref().map(|(_, session)| session);
         let mut session = self.pool.install(|| Session::prepare(&scene, self.seed, known))?;
-        session = session.keeping_interreflection().smoothing_drafts(self.smooth);
+        session = session.only(self.only).keeping_interreflection().smoothing_drafts(self.smooth);
         if let Some((_, known)) = previous.as_ref().filter(|(before, _)| shows_the_same(&before.scene, &scene.scene)) {
             session = session.showing_the_same(known);
         }
@@ -261,7 +268,8 @@ impl Worker {
                 self.preview.as_ref().and_then(|preview| preview.with_iterations(image, weight)).map(Arc::new);
             let smoothed = self.smoothed.is_some();
             let preview = blended.or_else(|| self.smoothed.clone());
-            self.shared.publish(Frame { preview, smoothed, ..frame });
+            let noise = self.noise.then(|| session.film().pixel_noise()).flatten().map(Arc::new);
+            self.shared.publish(Frame { preview, smoothed, noise, ..frame });
             self.last_frame = Some(Instant::now());
         }
     }

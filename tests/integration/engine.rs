@@ -7,7 +7,7 @@ use patchlight::engine::{Command, Engine, EngineSettings, Frame, Session, Status
 use patchlight::film::LinearImage;
 use patchlight::math::Rgb;
 use patchlight::scene::{Emitter, Light, SceneFile, Shape};
-use patchlight::transport::Cancel;
+use patchlight::transport::{Cancel, Component};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -201,6 +201,32 @@ fn a_restart_begins_without_the_picture_before() {
     engine.send(Command::Restart);
     let frame = frame_where(&engine, |frame| frame.generation == 2 && !frame.draft);
     assert!(frame.preview.is_none());
+}
+
+/// A component is the picture of a session for it alone; frames tell noise and what pixels show.
+#[test]
+fn a_component_is_rendered_alone_and_noise_is_told_on_demand() {
+    let mut engine = Watched::start();
+    engine.engine.send(Command::Noise(true));
+    engine.engine.send(Command::Show(room(0.5)));
+    let all = engine.frames_until(|frame| frame.iteration >= 6).last().expect("there are frames").clone();
+    let noise = all.noise.as_ref().expect("it was asked for");
+    let mean = f64::from(noise.iter().sum::<f32>()) / noise.len() as f64;
+    assert!(noise.len() == 64 * 48 && mean > 0.0 && mean < 0.2, "{mean}");
+    let g_buffer = all.g_buffer.as_ref().expect("after the first iteration");
+    let middle = g_buffer.first_hits[24 * 64 + 32];
+    assert!(middle.object == Some(0) && (middle.depth - 3.5).abs() < 0.05, "the ball: {middle:?}");
+    engine.engine.send(Command::Only(Some(Component::Caustics)));
+    engine.engine.send(Command::Noise(false));
+    let alone = engine.frames_until(|frame| frame.generation == 2 && frame.iteration >= 4);
+    let alone = alone.last().expect("there are frames");
+    let session = Session::prepare(&room(0.5), 1, None).expect("the scene can be prepared");
+    let mut session = session.only(Some(Component::Caustics));
+    while session.iterations() < alone.iteration {
+        session.advance(Cancel::NEVER).expect("never cancelled");
+    }
+    assert_eq!(alone.image, session.frame(2).image);
+    assert!(alone.noise.is_none());
 }
 
 /// Undo shows the picture as it was left, and it goes on converging; its display settings do not matter.

@@ -55,6 +55,9 @@ pub(crate) enum Action {
     ToggleGaussianCurvature,
     ToggleZebra,
     ToggleLightPaths,
+    ToggleIrradiance,
+    DrawProfile,
+    ExportProfile,
     TakeSnapshot,
     OpenReference,
     CompareFlip,
@@ -143,6 +146,9 @@ const TABLE: &[Row] = &[
     (Action::ToggleMeanCurvature, "Show mean curvature", &[(NONE, Key::K)]),
     (Action::ToggleGaussianCurvature, "Show Gaussian curvature", &[(Modifiers::SHIFT, Key::K)]),
     (Action::ToggleLightPaths, "Show light paths", &[(Modifiers::ALT, Key::K)]),
+    (Action::ToggleIrradiance, "Show irradiance", &[(NONE, Key::Q)]),
+    (Action::DrawProfile, "Draw the line of a profile", &[(NONE, Key::P)]),
+    (Action::ExportProfile, "Export profile…", &[]),
     (Action::TakeSnapshot, "Take snapshot", &[(NONE, Key::T)]),
     (Action::OpenReference, "Open reference picture…", &[]),
     (Action::CompareFlip, "Flip to the snapshot", &[(NONE, Key::C)]),
@@ -201,6 +207,11 @@ impl Action {
                 "Takes noise out of the interreflection that the screen shows while the picture has few photons. The picture itself, \
                  exports and the error estimate stay as they are."
             }
+            Self::ToggleIrradiance => "The irradiance of matte surfaces in false colours with isolines, W/m²",
+            Self::DrawProfile => {
+                "The next drag over the picture draws a line, along which a plot shows the numbers of the view"
+            }
+            Self::ExportProfile => "The numbers along the line of the profile as a table",
             Self::TakeSnapshot => "Keeps the picture and its scene, to compare with them and to go back to them",
             Self::OpenReference => "A picture of an OpenEXR file, to compare with",
             Self::CompareFlip => "Shows the chosen snapshot in place of the picture, and back",

@@ -3,11 +3,13 @@
 use super::action::Action;
 use super::comparison::SnapshotCommand;
 use super::length_unit::LengthUnit;
+use super::picture_view::PictureView;
 use super::purpose::Purpose;
 use crate::app::document::surface::Coupling;
 use crate::app::document::{Edit, NewItem, Selection};
 use crate::scene::{Camera, SurfaceOptions};
-use egui::ThemePreference;
+use crate::transport::Component;
+use egui::{Pos2, ThemePreference};
 use std::path::PathBuf;
 
 /// A request of the user to the editor.
@@ -61,6 +63,12 @@ pub(crate) enum AppCommand {
     ExportSurface(SurfaceOptions),
     /// Take, compare or restore snapshots.
     Snapshot(SnapshotCommand),
+    /// Show this of the scene.
+    Show(PictureView),
+    /// Render this component of the light alone, or all.
+    Only(Option<Component>),
+    /// The line of a profile between two points in film pixels; `None` for none.
+    ProfileLine(Option<[Pos2; 2]>),
     /// Snap to a grid with this step, scene units; `None` for the automatic step.
     Grid(Option<f64>),
     /// Name the unit of lengths.

@@ -15,6 +15,7 @@ pub(crate) enum Purpose {
     /// As a PNG file of 16 bits per channel.
     ExportDeep,
     ExportSurface,
+    ExportProfile,
     AddSurface,
     AddTexture,
     /// A picture to compare with.
@@ -31,6 +32,7 @@ impl Purpose {
             Self::ExportShown => "Export picture as shown",
             Self::ExportDeep => "Export 16-bit picture",
             Self::ExportSurface => "Export surface",
+            Self::ExportProfile => "Export profile",
             Self::AddSurface => "Add patches",
             Self::AddTexture => "Add texture",
             Self::OpenReference => "Open reference picture",
@@ -46,6 +48,7 @@ impl Purpose {
             Self::ExportShown => "export-shown",
             Self::ExportDeep => "export-deep",
             Self::ExportSurface => "export-surface",
+            Self::ExportProfile => "export-profile",
             Self::AddSurface => "add-surface",
             Self::AddTexture => "add-texture",
             Self::OpenReference => "open-reference",
@@ -64,7 +67,12 @@ impl Purpose {
     pub(crate) fn writes(self) -> bool {
         matches!(
             self,
-            Self::SaveScene | Self::ExportPicture | Self::ExportShown | Self::ExportDeep | Self::ExportSurface
+            Self::SaveScene
+                | Self::ExportPicture
+                | Self::ExportShown
+                | Self::ExportDeep
+                | Self::ExportSurface
+                | Self::ExportProfile
         )
     }
 
@@ -75,6 +83,7 @@ impl Purpose {
             Self::ExportPicture => &["png", "exr"],
             Self::ExportShown | Self::ExportDeep => &["png"],
             Self::ExportSurface => &SurfaceFormat::EXTENSIONS,
+            Self::ExportProfile => &["csv"],
             Self::AddSurface => &PatchFormat::EXTENSIONS,
             Self::AddTexture => &["png", "jpg", "jpeg"],
             Self::OpenReference => &["exr"],
@@ -89,6 +98,7 @@ impl Purpose {
             Self::ExportShown => ".png (with the display filter, where it is on)",
             Self::ExportDeep => ".png (tone-mapped, 16 bits per channel)",
             Self::ExportSurface => ".obj or .stl (mesh), .bpt (control points), .step (surfaces)",
+            Self::ExportProfile => ".csv (table)",
             Self::AddSurface => ".bpt, .obj, .pov, .rib (bicubic Bezier patches)",
             Self::AddTexture => ".png or .jpg (image)",
             Self::OpenReference => ".exr (linear picture)",

@@ -57,6 +57,7 @@ impl Editor {
                 }
             }
             Purpose::AddSurface => self.add_surface(&path),
+            Purpose::ExportProfile => self.write_profile(ctx, path),
             Purpose::OpenReference => self.add_reference(&path),
             Purpose::AddTexture => match new_items::texture(self.document.scene(), &path) {
                 Ok(texture) => self.document.edit(Edit::AddTexture(texture)),

@@ -4,6 +4,8 @@ use super::state::Editor;
 use crate::app::canvas::Picture;
 use crate::app::commands::{AppCommand, action};
 use crate::app::comparison::{Shown, strip_ui};
+use crate::app::document::Item;
+use crate::app::inspection::{legend_ui, line_ui, profile_ui};
 use crate::app::panels::{outline_ui, progress_ui, properties_ui, refusals};
 use crate::app::rendering::Sampling;
 use crate::app::shell::{
@@ -33,6 +35,7 @@ impl Editor {
         }
         self.display.poll(ctx);
         self.poll_snapshots(ctx);
+        self.poll_inspection(ctx);
     }
 
     /// Draws the window's content, then carries out the user's requests.
@@ -89,6 +92,8 @@ impl Editor {
             x_ray: canvas.sight.x_ray,
             analysis: canvas.analysis.analysis,
             light_paths: canvas.light_paths.on,
+            view: self.inspection.view(),
+            only: self.rendering.only(),
             falloff: canvas.grasp.falloff.on,
             grid: canvas.grasp.grid,
             panels: self.show_panels,
@@ -149,7 +154,7 @@ impl Editor {
         let compared = self.snapshots.shown(present);
         let (texture, image) = match &compared {
             Some(Shown { texture: Some(texture), image, .. }) => (Some(*texture), *image),
-            _ => (self.display.texture(), present.map(|image| &**image)),
+            _ => (self.inspection.texture().or(self.display.texture()), present.map(|image| &**image)),
         };
         let picture = Picture {
             texture,
@@ -158,6 +163,12 @@ impl Editor {
             beside: compared.as_ref().and_then(|shown| shown.beside),
         };
         self.canvas.show(ui, &self.document, &self.viewpoint.seen().scene, picture, commands);
+        if let Some(transform) = self.canvas.transform {
+            ui.scope(|ui| {
+                ui.set_clip_rect(transform.canvas);
+                line_ui(ui, &self.inspection, transform.picture(), transform.film, commands);
+            });
+        }
         // In this frame, because no other may follow.
         let scale = self.canvas.transform.map_or(1.0, |transform| transform.scale * ui.ctx().pixels_per_point());
         self.display.sample(ui.ctx(), Sampling::at(scale));
@@ -172,6 +183,16 @@ impl Editor {
             let unreadable = self.unreadable.as_deref();
             notices_ui(ui, self.document.scene(), &self.rendering, &self.chooser, unreadable, commands);
         });
+        if compared.is_none() {
+            let scene = self.document.scene();
+            let selected = match self.document.selection.item {
+                Item::Object(index) => scene.objects.get(index).map(|object| (object.name.as_str(), index)),
+                _ => None,
+            };
+            let error = self.rendering.full_frame().and_then(|frame| frame.stats.error_estimate);
+            legend_ui(ui, canvas, &self.inspection, self.canvas.pixel, selected, error);
+            profile_ui(ui, canvas, &self.inspection, commands);
+        }
         if self.show_history && self.dialog.is_none() {
             history_ui(ui.ctx(), canvas, &self.document, commands);
         }

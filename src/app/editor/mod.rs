@@ -7,6 +7,7 @@
 //! | `views` | changes the camera that the window shows the scene with |
 //! | `path_request` | asks the user for a path, by file dialog or by path field |
 //! | `comparing` | takes, compares, restores and keeps snapshots |
+//! | `inspecting` | shows what the picture measures, writes profiles |
 //! | `scenes` | opens, saves and leaves scenes |
 //! | `recovery` | writes unsaved changes, and recovers those of former windows |
 //! | `preferences` | applies and remembers the looks of the window |
@@ -23,6 +24,7 @@ mod adding;
 mod apply;
 mod chosen_path;
 mod comparing;
+mod inspecting;
 mod keeping;
 mod layout;
 mod opened_scene;

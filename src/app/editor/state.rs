@@ -6,6 +6,7 @@ use crate::app::commands::{LengthUnit, Next};
 use crate::app::comparison::Snapshots;
 use crate::app::document::{Document, Stamp};
 use crate::app::files::{Chooser, Export};
+use crate::app::inspection::Inspection;
 use crate::app::keeping::{
     Autosave, LastFolders, LeftOvers, PanelSizes, PreferencesFile, RecentFiles, Watch, WindowPlace,
 };
@@ -27,6 +28,7 @@ pub(crate) struct Editor {
     /// The size of the canvas, screen pixels.
     pub(crate) canvas_size: RestingSize,
     pub(crate) display: Display,
+    pub(crate) inspection: Inspection,
     pub(crate) snapshots: Snapshots,
     /// Whether a snapshot waits for the end of a draft.
     pub(crate) wants_snapshot: bool,
@@ -74,6 +76,7 @@ impl Editor {
             canvas: Canvas::default(),
             canvas_size: RestingSize::default(),
             display: Display::default(),
+            inspection: Inspection::default(),
             snapshots: Snapshots::default(),
             wants_snapshot: false,
             chooser: Chooser::default(),

@@ -55,6 +55,13 @@ impl Export {
         });
     }
 
+    /// Writes a text to `path`.
+    pub(crate) fn write_text(&self, ctx: &Context, purpose: Purpose, text: String, path: PathBuf) {
+        self.spawn(ctx, purpose, path, move |path| {
+            write_whole(path, text.as_bytes()).map_err(|error| format!("{} cannot be written: {error}", path.display()))
+        });
+    }
+
     /// Writes the requested picture if `frame`, the newest frame that is no draft, exists. Returns the exports that have
     /// finished since the last call. `seen` is the scene that the window shows.
     pub(crate) fn poll(&mut self, ctx: &Context, frame: Option<&Arc<Frame>>, seen: &Arc<SceneFile>) -> Vec<Exported> {

@@ -99,7 +99,11 @@ impl PathField {
     fn buttons_ui(&self, ui: &mut Ui, confirmed: bool, replaces: bool, commands: &mut Vec<AppCommand>) {
         let verb = match self.purpose {
             _ if replaces => "Replace",
-            Purpose::ExportPicture | Purpose::ExportShown | Purpose::ExportDeep | Purpose::ExportSurface => "Export",
+            Purpose::ExportPicture
+            | Purpose::ExportShown
+            | Purpose::ExportDeep
+            | Purpose::ExportSurface
+            | Purpose::ExportProfile => "Export",
             Purpose::SaveScene => "Save",
             Purpose::OpenScene | Purpose::AddSurface | Purpose::AddTexture | Purpose::OpenReference => "Open",
         };

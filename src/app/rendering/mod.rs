@@ -8,8 +8,10 @@
 //! | `error_curve` | [`ErrorCurve`]: the error estimate over time |
 //! | `state` | [`Rendering`]: the newest frame, the engine's status, the commands for the engine |
 //! | `sampling` | [`Sampling`]: how the screen samples the picture |
+//! | `background_image` | an image that another thread makes |
 //! | `display` | [`Display`]: the texture of the newest picture, tone-mapped off the UI thread |
 
+mod background_image;
 mod display;
 mod error_curve;
 mod renames;
@@ -18,6 +20,7 @@ mod sampling;
 mod state;
 mod submission;
 
+pub(crate) use background_image::BackgroundImage;
 pub(crate) use display::Display;
 pub(crate) use error_curve::ErrorCurve;
 pub(crate) use renames::Renames;

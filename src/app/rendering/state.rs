@@ -5,6 +5,7 @@ use super::renames::Renames;
 use super::submission::Submission;
 use crate::engine::{Command, Frame, Status};
 use crate::scene::{Problem, Scene, SceneFile};
+use crate::transport::Component;
 use std::sync::Arc;
 
 /// The relative error at which rendering stops by default: a smaller error is invisible, so an unattended window stops
@@ -21,6 +22,8 @@ pub(crate) struct Rendering {
     target: Option<f64>,
     /// Whether the screen shows less noise in the interreflection than the picture has.
     smooth: bool,
+    /// The component of the light that is rendered; `None` for all.
+    only: Option<Component>,
     curve: ErrorCurve,
     submission: Submission,
     commands: Vec<Command>,
@@ -35,6 +38,7 @@ impl Rendering {
             paused: false,
             target: Some(DEFAULT_TARGET),
             smooth: true,
+            only: None,
             curve: ErrorCurve::default(),
             submission: Submission::default(),
             commands: vec![Command::Target(Some(DEFAULT_TARGET)), Command::Smooth(true)],
@@ -94,6 +98,24 @@ impl Rendering {
     pub(crate) fn set_smooth(&mut self, smooth: bool) {
         self.smooth = smooth;
         self.commands.push(Command::Smooth(smooth));
+    }
+
+    /// Renders one component of the light, or all.
+    pub(crate) fn set_only(&mut self, only: Option<Component>) {
+        if self.only != only {
+            self.only = only;
+            self.commands.push(Command::Only(only));
+        }
+    }
+
+    /// The component of the light that is rendered; `None` for all.
+    pub(crate) fn only(&self) -> Option<Component> {
+        self.only
+    }
+
+    /// Asks for the noise of pixels in frames, or no longer.
+    pub(crate) fn tell_noise(&mut self, noise: bool) {
+        self.commands.push(Command::Noise(noise));
     }
 
     /// Takes the commands for the engine, in their order.

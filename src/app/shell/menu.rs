@@ -1,12 +1,14 @@
 //! The menu bar, with buttons for frequent actions.
 
+use super::inspect_menu::inspect_menu_ui;
 use super::menu_item::{check_ui, item_ui};
 use super::surface_menu::surface_menu_ui;
 use crate::app::canvas::{Analysis, automatic_step, steps_around};
-use crate::app::commands::{Action, AppCommand, LengthUnit, Next};
+use crate::app::commands::{Action, AppCommand, LengthUnit, Next, PictureView};
 use crate::app::document::Document;
 use crate::app::viewpoint::{NamedView, Side};
 use crate::scene::built_in_scenes;
+use crate::transport::Component;
 use egui::{Align, Button, Layout, MenuBar, ThemePreference, Ui};
 use std::path::{Path, PathBuf};
 
@@ -27,6 +29,10 @@ pub(crate) struct Visibility {
     /// The step of the snapping grid, scene units; `None` for the automatic step.
     pub(crate) grid: Option<f64>,
     pub(crate) panels: bool,
+    /// What the canvas shows of the scene.
+    pub(crate) view: PictureView,
+    /// The component of the light that is rendered; `None` for all.
+    pub(crate) only: Option<Component>,
     pub(crate) length_unit: LengthUnit,
     pub(crate) history: bool,
 }
@@ -46,6 +52,7 @@ pub(crate) fn menu_ui(
         ui.menu_button("Select", |ui| select_ui(ui, document, visible, commands));
         ui.menu_button("Surface", |ui| surface_menu_ui(ui, document, commands));
         ui.menu_button("View", |ui| view_ui(ui, visible, commands));
+        ui.menu_button("Inspect", |ui| inspect_menu_ui(ui, visible.view, visible.only, commands));
         ui.menu_button("Render", |ui| {
             let pause = if paused { "Resume" } else { "Pause" };
             item_ui(ui, Action::TogglePause, pause, true, commands);
@@ -149,16 +156,6 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
         check_ui(ui, action, visible.analysis.shows(action), commands);
     }
     check_ui(ui, Action::ToggleLightPaths, visible.light_paths, commands);
-    ui.separator();
-    for action in [
-        Action::TakeSnapshot,
-        Action::OpenReference,
-        Action::CompareFlip,
-        Action::CompareSplit,
-        Action::CompareDifference,
-    ] {
-        item_ui(ui, action, action.label(), true, commands);
-    }
     ui.separator();
     item_ui(ui, Action::FullScreen, Action::FullScreen.label(), true, commands);
     ui.separator();

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `menu_item` | the entries of menus |
 //! | `surface_menu` | the menu of operations on the patches of the selected object |
+//! | `inspect_menu` | the menu of what the canvas shows, profiles and comparisons |
 //! | `menu` | the menu bar, with buttons for frequent actions |
 //! | `notices` | messages over the picture: failures, problems of the scene, a lack of light, a slow file dialog |
 //! | `status_bar` | engine status, counts, the pixel under the pointer, the zoom |
@@ -19,6 +20,7 @@ mod dialogs;
 mod drop_hint;
 mod first_hint;
 mod history;
+mod inspect_menu;
 mod menu;
 mod menu_item;
 mod notices;

@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn another_surface_is_not_trusted_nor_light_on_what_was_dark() {
-        let farther = vec![FirstHit { depth: 2.02, is_matte: true, facet: None }; (SIDE * SIDE) as usize];
+        let farther = vec![FirstHit { depth: 2.02, is_matte: true, object: None, facet: None }; (SIDE * SIDE) as usize];
         let mut moved = draft(1.0, texture);
         moved.g_buffer.first_hits = farther;
         assert_eq!(applied(&Change::between(&draft(1.0, texture), &moved), Rgb::ONE, [4, 4]).trust, 0.0);

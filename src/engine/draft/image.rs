@@ -1,7 +1,7 @@
 //! A draft: a picture of few pixels, made at bounded cost.
 
-use super::g_buffer::GBuffer;
 use crate::engine::frame::Stats;
+use crate::engine::g_buffer::GBuffer;
 use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::transport::DraftSize;
@@ -38,7 +38,7 @@ impl Draft {
     /// A draft of these pixels, row by row, of which the fraction `sharp` is no interreflection, at this depth.
     pub(super) fn of_pixels(width: u32, pixels: Vec<Rgb>, sharp: f32, depth: f32) -> Self {
         let sharp = pixels.iter().map(|pixel| sharp * *pixel).collect();
-        let first_hits = vec![FirstHit { depth, is_matte: true, facet: None }; pixels.len()];
+        let first_hits = vec![FirstHit { depth, is_matte: true, object: None, facet: None }; pixels.len()];
         let image = LinearImage { width, height: pixels.len() as u32 / width, pixels };
         Self {
             size: DraftSize::FULL,

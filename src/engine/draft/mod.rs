@@ -7,7 +7,6 @@
 //! | file | holds |
 //! |---|---|
 //! | `image` | a draft |
-//! | `g_buffer` | what the pixels of a picture show |
 //! | `pace` | how coarse drafts are |
 //! | `grid` | positions between the middles of pixels |
 //! | `upsampling` | the light of a draft at more pixels than it has |
@@ -16,7 +15,6 @@
 //! | `preview` | a draft, and the picture before the edit where that stands in for it |
 
 mod change;
-mod g_buffer;
 mod grid;
 mod image;
 mod pace;
@@ -24,8 +22,6 @@ mod preview;
 mod reprojection;
 mod upsampling;
 
-pub use g_buffer::GBuffer;
-pub(super) use g_buffer::shows_the_same;
 pub use image::Draft;
 pub(super) use pace::DraftPace;
 pub(super) use preview::{Before, Preview};

@@ -1,11 +1,11 @@
 //! A picture for the screen: the draft of a scene, and the picture before the edit where that stands in for it.
 
 use super::change::{Change, Substitute};
-use super::g_buffer::GBuffer;
 use super::grid::{filled, sample};
 use super::image::Draft;
 use super::reprojection::Reprojection;
 use super::upsampling::Upsampling;
+use crate::engine::g_buffer::GBuffer;
 use crate::film::LinearImage;
 use crate::world::Camera;
 use std::sync::Arc;

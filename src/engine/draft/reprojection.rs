@@ -127,7 +127,7 @@ mod tests {
         for (index, hit) in (0..).zip(&mut draft.g_buffer.first_hits) {
             let ray = camera.ray(DVec2::new(f64::from(index % SIDE), f64::from(index / SIDE)) + 0.5);
             let depth = |z: f64| (z - ray.origin.z) / ray.direction.z;
-            *hit = FirstHit { depth: depth(z(ray.at(depth(0.0)).x)) as f32, is_matte: true, facet: None };
+            *hit = FirstHit { depth: depth(z(ray.at(depth(0.0)).x)) as f32, is_matte: true, object: None, facet: None };
         }
         draft
     }

@@ -4,9 +4,9 @@
 //! same surface under about the same normal, times its own albedo over theirs. Where it is known what pixels show in mirrors and through glass,
 //! that counts, too.
 
-use super::g_buffer::{GBuffer, Reflected};
 use super::grid::{Between, around, filled, middle};
 use super::image::Draft;
+use crate::engine::g_buffer::{GBuffer, Reflected};
 use crate::film::LinearImage;
 use crate::math::Rgb;
 use crate::transport::FirstHit;
@@ -158,7 +158,7 @@ mod tests {
 
     fn hit(tag: u32, normal: Vec3, albedo: f32) -> FirstHit {
         let facet = Facet { normal, albedo: Rgb::splat(albedo), tag, position: Vec3::ZERO };
-        FirstHit { depth: 1.0, is_matte: true, facet: Some(facet) }
+        FirstHit { depth: 1.0, is_matte: true, object: None, facet: Some(facet) }
     }
 
     /// The film's picture of a draft of this radiance and these first hits, given by the column of the film.

@@ -9,6 +9,8 @@ fn commands(ui: &mut Ui) -> Vec<&'static str> {
         Command::Target(_) => "target",
         Command::Smooth(true) => "smooth",
         Command::Smooth(false) => "as it is",
+        Command::Only(_) => "only",
+        Command::Noise(_) => "noise",
     };
     ui.state_mut().rendering.take_commands().into_iter().map(name).collect()
 }

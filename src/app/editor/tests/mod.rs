@@ -13,6 +13,7 @@
 //! | `drops` | dropped files |
 //! | `exports` | exporting pictures and surfaces |
 //! | `history` | the list of undo steps |
+//! | `inspection` | views of what the picture measures, profiles |
 //! | `keys` | shortcuts, the help |
 //! | `panels` | the outline, adding and deleting, notices |
 //! | `random_input` | random pointer, keys and text |
@@ -33,6 +34,7 @@ mod files;
 mod frames;
 mod grasp;
 mod history;
+mod inspection;
 mod keys;
 mod navigation;
 mod outside;
@@ -157,6 +159,8 @@ fn frame(generation: u64, draft: bool, size: u32) -> Arc<Frame> {
         image,
         preview: None,
         smoothed: false,
+        g_buffer: None,
+        noise: None,
         stats,
         plan: Arc::new(plan),
     })

@@ -14,18 +14,20 @@ pub struct FirstHit {
     pub depth: f32,
     /// Whether the surface looks the same from everywhere: it neither mirrors nor refracts, and has no Phong lobe.
     pub is_matte: bool,
+    /// The object, by its place in the scene; `None` for a lamp, and where the ray met nothing.
+    pub object: Option<u32>,
     /// The surface; `None` for a lamp, and where the ray met nothing.
     pub facet: Option<Facet>,
 }
 
 impl FirstHit {
     /// Nothing was met.
-    pub(super) const NONE: Self = Self { depth: f32::INFINITY, is_matte: false, facet: None };
+    pub(super) const NONE: Self = Self { depth: f32::INFINITY, is_matte: false, object: None, facet: None };
 
     /// A hit on a surface of the world, of which nothing more is known.
     pub(super) fn new(world: &World, hit: Hit) -> Self {
         let is_matte = !world.is_specular(hit.primitive) && !world.is_glossy(hit.primitive);
-        Self { depth: hit.t as f32, is_matte, facet: None }
+        Self { depth: hit.t as f32, is_matte, object: world.object_of(hit.primitive), facet: None }
     }
 
     /// The hit of a camera ray, with the surface's normal and albedo.

@@ -17,10 +17,10 @@ pub struct GBuffer {
 
 /// What a pixel shows in a mirror or through glass.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reflected {
-    pub(super) surface: SeenSurface,
+pub(in crate::engine) struct Reflected {
+    pub(in crate::engine) surface: SeenSurface,
     /// The radiance of the pixel over the irradiance of what it shows.
-    pub(super) reflectance: Rgb,
+    pub(in crate::engine) reflectance: Rgb,
 }
 
 impl GBuffer {
@@ -36,12 +36,12 @@ impl GBuffer {
     }
 
     /// Whether anything is known of what pixels show in mirrors and through glass.
-    pub(super) fn knows_reflections(&self) -> bool {
+    pub(in crate::engine) fn knows_reflections(&self) -> bool {
         !self.guides.surfaces.is_empty()
     }
 
     /// What a pixel shows in a mirror or through glass; `None` where it shows nothing there, or that is not known.
-    pub(super) fn reflected(&self, pixel: usize) -> Option<Reflected> {
+    pub(in crate::engine) fn reflected(&self, pixel: usize) -> Option<Reflected> {
         let surface = (*self.guides.surfaces.get(pixel)?)?;
         (!surface.seen_directly).then(|| Reflected { surface, reflectance: self.guides.reflectances[pixel] })
     }
