@@ -62,6 +62,7 @@ impl Engine {
             Command::Pause => request.paused = true,
             Command::Resume => request.paused = false,
             Command::Target(target) => request.target = target,
+            Command::Limits(limits) => request.limits = limits,
             Command::Smooth(smooth) => request.smooth = smooth,
         }
         drop(request);

@@ -14,6 +14,15 @@ pub struct EngineSettings {
     pub seed: u64,
 }
 
+/// When rendering rests, apart from the error.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Rendering time of the picture, seconds; `None` for no limit.
+    pub seconds: Option<f64>,
+    /// Iterations of the picture; `None` for no limit.
+    pub iterations: Option<u64>,
+}
+
 /// Commands to the engine.
 #[derive(Clone, Debug)]
 pub enum Command {
@@ -27,6 +36,8 @@ pub enum Command {
     Restart,
     /// Rests once the estimated error (RMSE over the mean) is at most this; `None` renders without end.
     Target(Option<f64>),
+    /// Rests once the picture has this time or these iterations.
+    Limits(Limits),
     /// Whether [`Frame::preview`](super::Frame::preview) has less noise in its interreflection than the picture.
     Smooth(bool),
     /// Renders this component of the light alone, or all; begins the present scene anew.
@@ -48,6 +59,8 @@ pub enum Status {
     Paused,
     /// Resting: the estimated error reached the target.
     Converged,
+    /// Resting: the time or the iterations that the picture may have are spent.
+    LimitReached,
     /// The scene cannot be rendered, for this reason; another scene may be.
     Failed(String),
 }

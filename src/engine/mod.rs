@@ -53,7 +53,7 @@ pub use frame::{Frame, MissingLight, PassSeconds, PlanSummary, SheetShare, Stats
 pub use g_buffer::GBuffer;
 pub use handle::Engine;
 pub use iteration::iterate;
-pub use messages::{Command, EngineError, EngineSettings, Status};
+pub use messages::{Command, EngineError, EngineSettings, Limits, Status};
 pub use pass_meter::PassMeter;
 pub use run::Run;
 pub use session::{BLACK_ITERATIONS, Session, SessionError};

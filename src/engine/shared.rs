@@ -1,7 +1,7 @@
 //! The state that the caller and the worker share.
 
 use super::frame::Frame;
-use super::messages::Status;
+use super::messages::{Limits, Status};
 use crate::scene::SceneFile;
 use crate::transport::Component;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,6 +19,8 @@ pub(super) struct Request {
     pub(super) paused: bool,
     /// Estimated error at which to rest.
     pub(super) target: Option<f64>,
+    /// Time and iterations after which to rest.
+    pub(super) limits: Limits,
     /// Whether previews have less noise in their interreflection.
     pub(super) smooth: bool,
     /// The component of the light to render; `None` for all.

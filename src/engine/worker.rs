@@ -3,7 +3,7 @@
 use super::draft::{Draft, DraftPace, Preview, Upsampling, detail_coarseness};
 use super::frame::Frame;
 use super::g_buffer::{GBuffer, shows_the_same};
-use super::messages::Status;
+use super::messages::{Limits, Status};
 use super::session::{Session, SessionError};
 use super::shared::Shared;
 use super::stand_in::StandIn;
@@ -58,6 +58,7 @@ struct Demands {
     quit: bool,
     paused: bool,
     target: Option<f64>,
+    limits: Limits,
 }
 
 impl Worker {
@@ -87,7 +88,7 @@ impl Worker {
     pub(super) fn run(mut self) {
         loop {
             let shown = (self.smooth, self.noise);
-            let Demands { quit, paused, target } = self.take_demands();
+            let Demands { quit, paused, target, limits } = self.take_demands();
             if quit {
                 return;
             }
@@ -98,6 +99,7 @@ impl Worker {
                 // An edit while paused still renders one iteration: otherwise a coarse draft would stay.
                 Some(session) if session.iterations() > 0 && paused => Some(Status::Paused),
                 Some(session) if target.is_some_and(|error| session.reaches(error)) => Some(Status::Converged),
+                Some(session) if is_spent(limits, session) => Some(Status::LimitReached),
                 Some(_) => None,
                 // Idle or failed.
                 None => Some(self.shared.status()),
@@ -123,7 +125,8 @@ impl Worker {
     /// Takes the newest demands, and begins the newest scene.
     fn take_demands(&mut self) -> Demands {
         let mut request = self.shared.request();
-        let demands = Demands { quit: request.quit, paused: request.paused, target: request.target };
+        let demands =
+            Demands { quit: request.quit, paused: request.paused, target: request.target, limits: request.limits };
         (self.smooth, self.only, self.noise) = (request.smooth, request.only, request.noise);
         let restart = request.restart.take();
         let scene = request.scene.take();
@@ -284,6 +287,13 @@ impl Worker {
         self.session = None;
         self.shared.set_status(Status::Failed(failure));
     }
+}
+
+/// Whether a picture has had its time or its iterations. It has one at least.
+fn is_spent(Limits { seconds, iterations }: Limits, session: &Session) -> bool {
+    session.iterations() > 0
+        && (seconds.is_some_and(|limit| session.seconds() >= limit)
+            || iterations.is_some_and(|limit| session.iterations() >= limit))
 }
 
 /// The frame of a draft, with the pixels of the film; with those of the draft when cancelled.

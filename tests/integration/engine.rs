@@ -3,7 +3,7 @@
 use crate::support::scene;
 use crossbeam_channel::{Receiver, Sender, bounded};
 use glam::DVec3;
-use patchlight::engine::{Command, Engine, EngineSettings, Frame, Session, Status};
+use patchlight::engine::{Command, Engine, EngineSettings, Frame, Limits, Session, Status};
 use patchlight::film::LinearImage;
 use patchlight::math::Rgb;
 use patchlight::scene::{Emitter, Light, SceneFile, Shape};
@@ -201,6 +201,22 @@ fn a_restart_begins_without_the_picture_before() {
     engine.send(Command::Restart);
     let frame = frame_where(&engine, |frame| frame.generation == 2 && !frame.draft);
     assert!(frame.preview.is_none());
+}
+
+#[test]
+fn a_picture_rests_at_its_limits() {
+    let engine = engine();
+    engine.send(Command::Limits(Limits { iterations: Some(3), seconds: None }));
+    engine.send(Command::Show(room(0.5)));
+    let rested = || wait_for(|| (engine.status() == Status::LimitReached).then(|| engine.newest_frame()));
+    assert_eq!(rested().map(|frame| frame.iteration), Some(3));
+    engine.send(Command::Limits(Limits { iterations: Some(5), seconds: None }));
+    let more = frame_where(&engine, |frame| frame.iteration == 5);
+    engine.send(Command::Limits(Limits { iterations: None, seconds: Some(1e-9) }));
+    engine.send(Command::Show(room(0.6)));
+    let edited = frame_where(&engine, |frame| frame.generation > more.generation && !frame.draft);
+    assert_eq!(edited.iteration, 1, "a picture has one iteration at least");
+    rested();
 }
 
 /// A component is the picture of a session for it alone; frames tell noise and what pixels show.

@@ -65,6 +65,7 @@ pub(crate) enum Action {
     CompareDifference,
     TogglePanels,
     FullScreen,
+    ToggleGuide,
     Palette,
     Help,
 }
@@ -158,6 +159,7 @@ const TABLE: &[Row] = &[
     (Action::FullScreen, "Full screen", &[(NONE, Key::F11)]),
     (Action::Palette, "Find a command…", &[(CTRL, Key::P)]),
     (Action::Help, "Keys and mouse", &[(NONE, Key::F1)]),
+    (Action::ToggleGuide, "Guide", &[(Modifiers::SHIFT, Key::F1)]),
 ];
 
 impl Action {
@@ -218,6 +220,9 @@ impl Action {
             Self::CompareSplit => "The chosen snapshot to the right of a line that the pointer drags",
             Self::CompareDifference => {
                 "False colours: blue where the picture is darker than the snapshot, red where it is brighter; with RMSE, relMSE and FLIP"
+            }
+            Self::ToggleGuide => {
+                "Ten minutes from the first start to a caustic of your own, and a section for each task"
             }
             Self::NextMirror => "Moves control points in pairs, mirrored across a plane: off, x, y, z in turn",
             _ => "",

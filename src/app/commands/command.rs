@@ -7,6 +7,7 @@ use super::picture_view::PictureView;
 use super::purpose::Purpose;
 use crate::app::document::surface::Coupling;
 use crate::app::document::{Edit, NewItem, Selection};
+use crate::engine::Limits;
 use crate::scene::{Camera, SurfaceOptions};
 use crate::transport::Component;
 use egui::{Pos2, ThemePreference};
@@ -59,6 +60,8 @@ pub(crate) enum AppCommand {
     CloseHint,
     /// Stop rendering at this relative error; `None` never stops.
     Target(Option<f64>),
+    /// Stop rendering after this time or these iterations.
+    Limits(Limits),
     /// Ask for a file to export the surface to.
     ExportSurface(SurfaceOptions),
     /// Take, compare or restore snapshots.

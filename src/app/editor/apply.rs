@@ -51,6 +51,7 @@ impl Editor {
             AppCommand::Grid(step) => self.canvas.grasp.grid = step,
             AppCommand::LengthUnit(unit) => self.length_unit = unit,
             AppCommand::Theme(theme) => ctx.set_theme(theme),
+            AppCommand::Limits(limits) => self.rendering.set_limits(limits),
             AppCommand::Target(target) => self.rendering.set_target(target),
         }
     }
@@ -115,6 +116,7 @@ impl Editor {
             Action::TogglePanels => self.show_panels = !self.show_panels,
             Action::FullScreen => toggle_full_screen(ctx),
             Action::Palette => self.dialog = Some(Dialog::Palette(Palette::default())),
+            Action::ToggleGuide => self.show_guide = !self.show_guide,
             Action::Help => self.dialog = Some(Dialog::Help),
         }
     }

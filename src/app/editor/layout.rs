@@ -9,7 +9,8 @@ use crate::app::inspection::{legend_ui, line_ui, profile_ui};
 use crate::app::panels::{outline_ui, progress_ui, properties_ui, refusals};
 use crate::app::rendering::Sampling;
 use crate::app::shell::{
-    Visibility, dialog_ui, drop_hint_ui, first_hint_ui, history_ui, looking_ui, menu_ui, notices_ui, status_bar_ui,
+    Visibility, dialog_ui, drop_hint_ui, first_hint_ui, guide_ui, history_ui, looking_ui, menu_ui, notices_ui,
+    status_bar_ui,
 };
 use egui::{CentralPanel, Context, Panel, ScrollArea, Ui, UiBuilder};
 
@@ -99,6 +100,7 @@ impl Editor {
             panels: self.show_panels,
             length_unit: self.length_unit,
             history: self.show_history,
+            guide: self.show_guide,
         };
         Panel::top("menu").show(ui, |ui| {
             menu_ui(ui, &self.document, self.recent.paths(), self.rendering.is_paused(), visible, commands);
@@ -192,6 +194,9 @@ impl Editor {
             let error = self.rendering.full_frame().and_then(|frame| frame.stats.error_estimate);
             legend_ui(ui, canvas, &self.inspection, self.canvas.pixel, selected, error);
             profile_ui(ui, canvas, &self.inspection, commands);
+        }
+        if self.show_guide && self.dialog.is_none() {
+            guide_ui(ui.ctx(), canvas, &mut self.guide, commands);
         }
         if self.show_history && self.dialog.is_none() {
             history_ui(ui.ctx(), canvas, &self.document, commands);

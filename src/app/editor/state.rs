@@ -14,6 +14,7 @@ use crate::app::rendering::{Display, Rendering};
 use crate::app::shell::Dialog;
 use crate::app::viewpoint::{RestingSize, Viewpoint, Visited};
 use crate::scene::SceneFile;
+use egui_commonmark::CommonMarkCache;
 use egui_notify::{Anchor, Toasts};
 
 /// All that the window shows and remembers. Widgets read it; only `apply`, and dialogs and exports that end, change it.
@@ -56,6 +57,9 @@ pub(crate) struct Editor {
     pub(crate) after_save: Option<Next>,
     pub(crate) show_panels: bool,
     pub(crate) show_history: bool,
+    pub(crate) show_guide: bool,
+    /// What the guide has laid out.
+    pub(crate) guide: CommonMarkCache,
     /// Whether the hint for a first start is shown, until the first edit.
     pub(crate) show_hint: bool,
     /// Whether the window may close, because the changes are saved or the user discards them.
@@ -98,6 +102,8 @@ impl Editor {
             after_save: None,
             show_panels: true,
             show_history: false,
+            show_guide: false,
+            guide: CommonMarkCache::default(),
             show_hint: true,
             may_close: false,
         }

@@ -7,6 +7,9 @@ use crate::app::theme::{self, overlay};
 use egui::{Color32, CursorIcon, Id, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, Window};
 use egui_plot::{Line, Plot, PlotPoints};
 
+/// Width of the plot, screen points.
+const PLOT_WIDTH: f32 = 340.0;
+
 /// Shows the line of a profile over the picture, which lies in `picture` on the screen and has `film` pixels, and draws a new one if the user
 /// asked for it. Call it after the widget of the canvas, over which it lies.
 pub(crate) fn line_ui(
@@ -58,7 +61,7 @@ pub(crate) fn profile_ui(ui: &Ui, canvas: Rect, inspection: &Inspection, command
     Window::new(title)
         .id(Id::unique("profile"))
         .open(&mut is_open)
-        .default_pos(canvas.center())
+        .default_pos(canvas.right_top() + egui::vec2(-PLOT_WIDTH - 40.0, 10.0))
         .constrain_to(canvas)
         .show(ui.ctx(), |ui| {
             let color = theme::palette(ui.visuals().dark_mode).plot;
@@ -73,7 +76,8 @@ pub(crate) fn profile_ui(ui: &Ui, canvas: Rect, inspection: &Inspection, command
 }
 
 fn plot_ui(ui: &mut Ui, profile: &Profile, color: Color32) {
-    let plot = Plot::new("profile").height(160.0).width(340.0).allow_drag(false).allow_scroll(false).allow_zoom(false);
+    let plot =
+        Plot::new("profile").height(160.0).width(PLOT_WIDTH).allow_drag(false).allow_scroll(false).allow_zoom(false);
     plot.x_axis_label("pixels").include_y(0.0).show(ui, |plot| {
         // A line for each part with numbers.
         let points: Vec<[f64; 2]> = profile.points().collect();

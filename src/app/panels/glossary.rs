@@ -56,6 +56,7 @@ const TIPS: &[(&str, &str)] = &[
     ("Tone curve", "How bright light is shown: clipped, or rolled off as by film. Does not restart rendering"),
     ("Bounces", "Most scattering events on a path; 1 renders direct light only"),
     ("Background", "Radiance where no object is"),
+    ("Time left", "The rendering time until the error that is asked for, if the error falls as it did lately"),
     ("Stop at error", "Rendering stops when the error is hardly above this; 0 never stops"),
     ("Error", "Estimated root mean square error of the pixels, over the mean of the picture"),
 ];

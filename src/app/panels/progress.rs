@@ -10,8 +10,11 @@ use super::typing::Typing;
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit};
 use crate::app::rendering::Rendering;
-use crate::engine::{PassSeconds, Stats};
+use crate::engine::{Limits, MOST_ITERATIONS, PassSeconds, Stats, Status};
 use egui::{CollapsingHeader, DragValue, Grid, Ui};
+
+/// Longest time limit, seconds: a month.
+const MOST_SECONDS: f64 = 2_678_400.0;
 
 /// Width of the exposure slider beside its label and number, screen points.
 const SLIDER_WIDTH: f32 = 60.0;
@@ -27,7 +30,9 @@ pub(crate) fn progress_ui(ui: &mut Ui, document: &Document, rendering: &Renderin
     ui.strong("Progress");
     rows(ui, "progress", |ui| {
         error_rows(ui, &frame.stats);
+        time_left_row(ui, rendering);
         target_row(ui, rendering.target(), commands);
+        limit_rows(ui, rendering.limits(), commands);
     });
     if let Some(missing) = frame.stats.missing_light {
         ui.weak(missing.to_string());
@@ -65,6 +70,54 @@ fn error_rows(ui: &mut Ui, stats: &Stats) {
     caption(ui, "Error");
     explained(ui.label(stats.error_estimate.map_or("unknown yet".to_owned(), percent)), "Error");
     ui.end_row();
+}
+
+/// The time until the error asked for.
+fn time_left_row(ui: &mut Ui, rendering: &Rendering) {
+    caption(ui, "Time left");
+    let left = match (rendering.status(), rendering.target()) {
+        (Status::Converged | Status::LimitReached, _) => "none".to_owned(),
+        (_, None) => "without end".to_owned(),
+        _ => {
+            rendering.seconds_left().map_or("unknown yet".to_owned(), |seconds| format!("about {}", duration(seconds)))
+        }
+    };
+    explained(ui.label(left), "Time left");
+    ui.end_row();
+}
+
+/// The fields of the time and of the number of iterations after which rendering stops; 0 never stops.
+fn limit_rows(ui: &mut Ui, limits: Limits, commands: &mut Vec<AppCommand>) {
+    let mut changed = limits;
+    let seconds = limit_field(ui, "Stop after", limits.seconds.unwrap_or(0.0), MOST_SECONDS, " s");
+    changed.seconds = Some(seconds).filter(|seconds| *seconds > 0.0);
+    let iterations = limits.iterations.unwrap_or(0) as f64;
+    let iterations = limit_field(ui, "Stop at iteration", iterations, MOST_ITERATIONS as f64, "").round() as u64;
+    changed.iterations = Some(iterations).filter(|iterations| *iterations > 0);
+    if changed != limits {
+        commands.push(AppCommand::Limits(changed));
+    }
+}
+
+/// A field of a limit, with "never" for 0; its number.
+fn limit_field(ui: &mut Ui, name: &str, mut value: f64, most: f64, unit: &str) -> f64 {
+    let label = ui.label(name);
+    let typing = Typing::of_next(ui, value, 0.0..=most);
+    let field = DragValue::new(&mut value)
+        .range(0.0..=most)
+        .speed(1.0)
+        .max_decimals(1)
+        .update_while_editing(false)
+        .custom_formatter(|value, _| if value > 0.0 { format!("{value}{unit}") } else { "never".to_owned() })
+        .custom_parser(|text| match text.trim() {
+            "never" => Some(0.0),
+            number => typing.read(number.trim_end_matches('s').trim()),
+        });
+    let field = ui.add(field).labelled_by(label.id);
+    typing.end(ui.ctx(), name);
+    field.on_hover_text("0 never stops");
+    ui.end_row();
+    value
 }
 
 fn counts_ui(ui: &mut Ui, iteration: u64, stats: &Stats) {

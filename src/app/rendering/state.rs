@@ -3,7 +3,7 @@
 use super::error_curve::ErrorCurve;
 use super::renames::Renames;
 use super::submission::Submission;
-use crate::engine::{Command, Frame, Status};
+use crate::engine::{Command, Frame, Limits, Status};
 use crate::scene::{Problem, Scene, SceneFile};
 use crate::transport::Component;
 use std::sync::Arc;
@@ -20,6 +20,7 @@ pub(crate) struct Rendering {
     /// The user's wish; the engine pauses after the current iteration.
     paused: bool,
     target: Option<f64>,
+    limits: Limits,
     /// Whether the screen shows less noise in the interreflection than the picture has.
     smooth: bool,
     /// The component of the light that is rendered; `None` for all.
@@ -37,6 +38,7 @@ impl Rendering {
             status: Status::Idle,
             paused: false,
             target: Some(DEFAULT_TARGET),
+            limits: Limits::default(),
             smooth: true,
             only: None,
             curve: ErrorCurve::default(),
@@ -92,6 +94,22 @@ impl Rendering {
     pub(crate) fn set_target(&mut self, target: Option<f64>) {
         self.target = target;
         self.commands.push(Command::Target(target));
+    }
+
+    /// Stops rendering after this time or these iterations.
+    pub(crate) fn set_limits(&mut self, limits: Limits) {
+        self.limits = limits;
+        self.commands.push(Command::Limits(limits));
+    }
+
+    /// The time and the iterations after which rendering stops.
+    pub(crate) fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    /// The rendering time that is left until the error asked for, seconds; `None` where that cannot be told.
+    pub(crate) fn seconds_left(&self) -> Option<f64> {
+        self.curve.seconds_until(self.target?)
     }
 
     /// Shows less noise in the interreflection than the picture has, or the picture as it is.

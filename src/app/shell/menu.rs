@@ -35,6 +35,7 @@ pub(crate) struct Visibility {
     pub(crate) only: Option<Component>,
     pub(crate) length_unit: LengthUnit,
     pub(crate) history: bool,
+    pub(crate) guide: bool,
 }
 
 /// The menu bar: menus on the left, buttons on the right.
@@ -61,6 +62,7 @@ pub(crate) fn menu_ui(
             }
         });
         ui.menu_button("Help", |ui| {
+            check_ui(ui, Action::ToggleGuide, visible.guide, commands);
             for action in [Action::Palette, Action::Help] {
                 item_ui(ui, action, action.label(), true, commands);
             }

@@ -9,6 +9,7 @@
 //! | `notices` | messages over the picture: failures, problems of the scene, a lack of light, a slow file dialog |
 //! | `status_bar` | engine status, counts, the pixel under the pointer, the zoom |
 //! | `history` | the list of undo steps |
+//! | `guide` | the guide |
 //! | `drop_hint` | what a file that is dragged over the window will do |
 //! | `first_hint` | the hint for a first start |
 //! | `palette` | the command palette: every action, item and example by its name |
@@ -19,6 +20,7 @@
 mod dialogs;
 mod drop_hint;
 mod first_hint;
+mod guide;
 mod history;
 mod inspect_menu;
 mod menu;
@@ -33,6 +35,7 @@ mod surface_menu;
 pub(crate) use dialogs::{Dialog, dialog_ui};
 pub(crate) use drop_hint::{drop_hint, drop_hint_ui};
 pub(crate) use first_hint::first_hint_ui;
+pub(crate) use guide::guide_ui;
 pub(crate) use history::history_ui;
 pub(crate) use menu::{Visibility, menu_ui};
 pub(crate) use notices::{looking_ui, notices_ui};

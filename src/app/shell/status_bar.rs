@@ -41,6 +41,7 @@ fn status_text(ui: &Ui, rendering: &Rendering) -> (&'static str, Color32) {
         Status::Rendering => ("Rendering", palette.success),
         Status::Paused => ("Paused", palette.warning),
         Status::Converged => ("Converged", palette.success),
+        Status::LimitReached => ("Stopped at the limit", palette.success),
     }
 }
 

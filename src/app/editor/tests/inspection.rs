@@ -53,7 +53,7 @@ fn other_views_follow_the_menu() {
     for view in [PictureView::Distance, PictureView::Albedo, PictureView::Normals, PictureView::Error] {
         ui.get_by_role_and_label(Role::Button, "Inspect").click();
         ui.run_steps(3);
-        ui.get_by_label(view.label()).click();
+        ui.get_by_role_and_label(Role::RadioButton, view.label()).click();
         ui.run_steps(3);
         wait_until(&mut ui, view.label(), |ui| ui.state().inspection.texture().is_some());
         assert_eq!(ui.state().inspection.view(), view);

@@ -10,6 +10,7 @@ fn commands(ui: &mut Ui) -> Vec<&'static str> {
         Command::Smooth(true) => "smooth",
         Command::Smooth(false) => "as it is",
         Command::Only(_) => "only",
+        Command::Limits(_) => "limits",
         Command::Noise(_) => "noise",
     };
     ui.state_mut().rendering.take_commands().into_iter().map(name).collect()
@@ -193,4 +194,31 @@ fn text_typed_in_the_frame_of_tab_is_kept() {
     ui.run_steps(6);
     let crate::scene::Shape::Quad { corner, .. } = scene(&ui).objects[0].shape else { panic!("a quad is selected") };
     assert_eq!((corner.x, corner.y), (1.25, 3.5));
+}
+
+#[test]
+fn the_guide_stays_open_beside_the_picture_until_it_is_closed() {
+    let mut ui = open("cornell");
+    choose_from_menu(&mut ui, &["Help"]);
+    ui.get_by_label_contains("Guide").click();
+    ui.run_steps(3);
+    assert!(ui.state().show_guide && ui.state().dialog.is_none());
+    ui.get_by_label_contains("A caustic in ten minutes");
+    ui.key_press_modifiers(Modifiers::SHIFT, Key::F1);
+    ui.run_steps(3);
+    assert!(!ui.state().show_guide && ui.query_by_label_contains("A caustic in ten minutes").is_none());
+}
+
+/// The guide names menus and entries as they are.
+#[test]
+fn the_guide_names_what_there_is() {
+    let text = include_str!("../../../../docs/guide.md");
+    for example in
+        crate::scene::built_in_scenes().iter().filter(|scene| ["lens", "cardioid", "water"].contains(&scene.name))
+    {
+        assert!(text.contains(&format!("*File > Examples > {}*", example.title)), "{}", example.title);
+    }
+    for label in ["Caustics alone", "Open reference picture"] {
+        assert!(text.contains(&format!("*Inspect > {label}*")), "{label}");
+    }
 }
