@@ -14,6 +14,7 @@
 //! | `edit_name` | the names of edits in menus and in the history |
 //! | `history` | undo and redo of whole states |
 //! | `kinds` | the kinds of shapes, lights, materials and textures: names, and conversions |
+//! | `presets` | materials with the parameters of real glass, metals and paint |
 //! | `new_items` | the items that "Add", "Duplicate" and "New scene" create |
 //! | `stamp` | the state of a file on disk |
 //! | `state` | [`Document`]: the scene with its file, selection and history |
@@ -28,6 +29,7 @@ pub(crate) mod kinds;
 mod names;
 pub(crate) mod new_items;
 mod placement;
+pub(crate) mod presets;
 mod selection;
 mod stamp;
 mod state;

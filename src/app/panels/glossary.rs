@@ -13,6 +13,7 @@ const TIPS: &[(&str, &str)] = &[
         "The piece of glass that the surface bounds; surfaces of one body have one name. Empty: all surfaces of the material",
     ),
     ("Type", "The kind of material or light; colours that both kinds have are kept"),
+    ("Preset", "Takes the parameters of real glass, metal or paint; the name, the relief and the priority stay"),
     ("Position", "A point in world space, scene units"),
     ("Target", "The point that the camera looks at, scene units"),
     ("Up", "The direction that points up in the picture"),

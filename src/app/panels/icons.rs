@@ -1,5 +1,6 @@
 //! Icons of the kinds of items: a few strokes each, which stay sharp at any scale.
 
+use crate::app::theme::overlay;
 use crate::scene::{Color, Emitter, MaterialModel, Shape};
 use egui::{Color32, Painter, Pos2, Rect, Shape as Drawing, Stroke};
 use std::f32::consts::TAU;
@@ -21,7 +22,8 @@ pub(super) enum Icon {
     Texture,
     /// A material of one colour, or of a texture where the colour is unknown.
     Swatch(Option<Color32>),
-    Mirror,
+    /// A mirror of one reflectance, or of a texture where the reflectance is unknown.
+    Mirror(Option<Color32>),
     Glass,
 }
 
@@ -44,7 +46,7 @@ impl Icon {
 
     pub(super) fn of_model(model: &MaterialModel) -> Self {
         match model {
-            MaterialModel::Mirror { .. } => Self::Mirror,
+            MaterialModel::Mirror { reflectance } => Self::Mirror(swatch(reflectance)),
             MaterialModel::Glass { .. } => Self::Glass,
             MaterialModel::Diffuse { albedo }
             | MaterialModel::Phong { albedo, .. }
@@ -88,8 +90,13 @@ impl Icon {
                 checker(Rect::from_center_size(center, egui::Vec2::splat(1.2 * radius)), color),
                 ring,
             ]),
-            Self::Mirror => {
-                Drawing::Vec(vec![ring, line(&[(0.35, 0.65), (0.65, 0.35)]), line(&[(0.5, 0.72), (0.72, 0.5)])])
+            Self::Mirror(fill) => {
+                let disc = Drawing::circle_filled(center, radius, fill.unwrap_or(Color32::TRANSPARENT));
+                // Strokes on a bright disc are dark.
+                let glint = Stroke::new(1.2, fill.map_or(color, |_| overlay::OUTLINE));
+                let glint =
+                    |points: &[(f32, f32)]| Drawing::line(points.iter().map(|(x, y)| at(*x, *y)).collect(), glint);
+                Drawing::Vec(vec![disc, ring, glint(&[(0.35, 0.65), (0.65, 0.35)]), glint(&[(0.5, 0.72), (0.72, 0.5)])])
             }
             Self::Glass => Drawing::Vec(vec![ring, Drawing::circle_stroke(center, 0.5 * radius, stroke)]),
         });

@@ -1,8 +1,9 @@
 //! The properties of a material.
 
 use super::fields::{Number, choice_row, color, color_row, kind_row, number, number_row, rows, text_row};
-use super::glossary::caption_with_unit;
+use super::glossary::{caption, caption_with_unit, explained};
 use super::lengths::Lengths;
+use super::presets::presets_ui;
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, kinds};
 use crate::math::Rgb;
@@ -39,6 +40,13 @@ pub(super) fn material_ui(
         if let Some(kind) = kind_row(ui, "Type", kinds::model_kind(&material.model), &kinds) {
             edited.model = kinds::model_like(&material.model, kind);
         }
+        caption(ui, "Preset");
+        let menu = ui.menu_button("Choose…", presets_ui);
+        if let Some(preset) = menu.inner.flatten() {
+            edited = preset.applied_to(material);
+        }
+        explained(menu.response.accessible_name("Presets"), "Preset");
+        ui.end_row();
         model_ui(ui, &mut edited.model, scene, lengths);
         relief_ui(ui, &mut edited.relief, scene, lengths);
     });

@@ -6,6 +6,7 @@
 //! | `expression` | arithmetic in number fields |
 //! | `glossary` | the explanations of names, for tooltips |
 //! | `icons` | icons of the kinds of items |
+//! | `presets` | the menu of ready-made materials |
 //! | `typing` | typed numbers: relative numbers, and messages on texts that are no numbers |
 //! | `fields` | fields for names, numbers, vectors and colours |
 //! | `lengths` | number fields of lengths |
@@ -36,6 +37,7 @@ mod numbers;
 mod objects;
 mod outline;
 mod plan;
+mod presets;
 mod progress;
 mod properties;
 mod settings;

@@ -1,6 +1,7 @@
 //! The list of all items in the scene.
 
 use super::icons::{self, Icon};
+use super::presets::presets_ui;
 use crate::app::commands::{Action, AppCommand, Purpose};
 use crate::app::document::{Document, Edit, Item, NewItem, Selection, kinds, new_items};
 use egui::{Align, Atom, Button, CollapsingHeader, IdSalt, Layout, Response, Ui, UiBuilder, Vec2};
@@ -127,6 +128,10 @@ fn materials_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>
             if ui.button(label).clicked() {
                 commands.push(AppCommand::Edit(Edit::AddMaterial(new_items::material(scene, label, model))));
             }
+        }
+        if let Some(preset) = ui.menu_button("presets", presets_ui).inner.flatten() {
+            let material = new_items::material(scene, preset.name, preset.model.clone());
+            commands.push(AppCommand::Edit(Edit::AddMaterial(material)));
         }
     });
 }

@@ -97,6 +97,35 @@ fn the_kind_of_a_material_is_chosen_from_a_list() {
 }
 
 #[test]
+fn a_preset_gives_a_material_its_parameters_in_one_undo_step() {
+    let mut ui = open("cornell");
+    select(&mut ui, Item::Material(0));
+    let before = scene(&ui).materials[0].clone();
+    choose_from_menu(&mut ui, &["Presets", "dense flint glass (SF10)"]);
+    let after = &scene(&ui).materials[0];
+    assert!(matches!(after.model, MaterialModel::Glass { ior: 1.7283, .. }), "{after:?}");
+    assert_eq!(after.name, before.name);
+    assert!(ui.query_by_label("Liquids and crystals").is_none(), "the menu is closed");
+    press(&mut ui, Key::Z);
+    assert_eq!(scene(&ui).materials[0], before);
+}
+
+#[test]
+fn a_preset_becomes_a_new_material_of_its_name() {
+    let mut ui = open("report");
+    let count = scene(&ui).materials.len();
+    click(&mut ui, "Add to Materials");
+    ui.get_by_label_contains("presets").click();
+    ui.run_steps(3);
+    click(&mut ui, "copper");
+    let added = &scene(&ui).materials[count];
+    assert_eq!(added.name, "copper");
+    assert!(matches!(added.model, MaterialModel::Mirror { .. }), "{added:?}");
+    press(&mut ui, Key::Z);
+    assert_eq!(scene(&ui).materials.len(), count);
+}
+
+#[test]
 fn an_invalid_scene_is_reported_and_not_rendered() {
     let mut ui = open("report");
     let floor = first_object(&ui, |shape| matches!(shape, Shape::Quad { .. }));
