@@ -176,6 +176,7 @@
 //! | word | meaning |
 //! |---|---|
 //! | patch, control net | a bicubic Bezier surface; its 4 x 4 control points |
+//! | surface of revolution, profile | the patches that a curve sweeps around an axis; that curve, cubic Bezier segments in (r, y) |
 //! | `dpdu`, `dpdv` | derivatives of the position by the parameters u and v |
 //! | subpatch | nearly flat piece of a patch over a rectangle of its parameters: a leaf's item in the tree of the patch |
 //! | unit space | coordinates of a patch in which its box has a diagonal of 1/2 to 1 |

@@ -1,7 +1,7 @@
 use super::{CliError, args::CheckArguments, rendering::pool, words::counted};
 use crate::{
     engine::{PlanSummary, Session},
-    scene::{Location, Scene, SceneFile, Shape},
+    scene::{Location, Scene, SceneFile},
 };
 use std::io::{Write, stdout};
 
@@ -31,7 +31,7 @@ fn text(label: &str, scene: &Scene, plan: &PlanSummary) -> String {
 }
 
 fn contents(scene: &Scene) -> String {
-    let patches = scene.objects.iter().map(|o| if let Shape::Bezier(b) = &o.shape { b.patches.len() } else { 0 });
+    let patches = scene.objects.iter().map(|o| o.shape.surface().map_or(0, |surface| surface.patches.len()));
     let counts = [
         (scene.objects.len(), "object"),
         (patches.sum(), "Bezier patch"),

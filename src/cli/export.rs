@@ -3,7 +3,7 @@ use super::{
     args::ExportArguments,
     output::{must_not_overwrite, must_spare_files_of, write},
 };
-use crate::scene::{Scene, SceneFile, Shape, SurfaceExport, SurfaceFormat, SurfaceOptions};
+use crate::scene::{Scene, SceneFile, SurfaceExport, SurfaceFormat, SurfaceOptions};
 
 /// `patchlight export`: writes the Bezier patches of a scene in world space, for another program.
 pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
@@ -28,7 +28,7 @@ pub(super) fn export(arguments: &ExportArguments) -> Result<(), CliError> {
 
 /// The patches of the object with this name, or of all objects that have patches.
 fn chosen(scene: &Scene, wanted: Option<&str>) -> Result<SurfaceExport, String> {
-    let all = scene.objects.iter().filter(|object| matches!(object.shape, Shape::Bezier(_)));
+    let all = scene.objects.iter().filter(|object| object.shape.surface().is_some());
     let chosen = all.clone().filter(|object| wanted.is_none_or(|name| name == object.name));
     SurfaceExport::of(chosen).ok_or_else(|| {
         let names: Vec<_> = all.map(|object| object.name.as_str()).collect();

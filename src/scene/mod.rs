@@ -6,7 +6,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `uv_rect` | [`UvRect`]: the part of texture space that a patch shows |
-//! | `camera`, `film`, `render`, `texture`, `material`, `light`, `object`, `bezier` | the tables of a scene |
+//! | `camera`, `film`, `render`, `texture`, `material`, `light`, `object`, `bezier`, `revolution` | the tables of a scene |
 //! | `data` | [`Scene`], all tables |
 //! | `problem` | [`Problem`]: one error in a scene, by the path of the value |
 //! | `error` | [`SceneError`], [`LocatedProblem`]: errors with line and column |
@@ -35,6 +35,7 @@ mod material;
 mod object;
 mod problem;
 mod render;
+mod revolution;
 mod save;
 mod snapshot;
 mod surface_export;
@@ -56,6 +57,7 @@ pub use material::{Color, Material, MaterialModel, Relief};
 pub use object::{BodyKey, Object, Shape};
 pub use problem::Problem;
 pub use render::Render;
+pub use revolution::Revolution;
 pub use surface_export::{SurfaceExport, SurfaceFormat, SurfaceOptions};
 pub use texture::{Encoding, Texture, TextureUse};
 pub use uv_rect::UvRect;

@@ -1,4 +1,4 @@
-use super::Bezier;
+use super::{Bezier, Revolution};
 use glam::DVec3;
 
 /// An object: a shape with a material.
@@ -70,4 +70,17 @@ pub enum Shape {
     },
     /// Bicubic Bezier patches.
     Bezier(Bezier),
+    /// A surface of revolution, rendered as the patches that its profile sweeps.
+    Revolution(Revolution),
+}
+
+impl Shape {
+    /// The patches of the shape: given ones, or those of a surface of revolution; `None` for a shape without patches.
+    pub fn surface(&self) -> Option<&Bezier> {
+        match self {
+            Self::Bezier(bezier) => Some(bezier),
+            Self::Revolution(revolution) => Some(revolution.surface()),
+            Self::Quad { .. } | Self::Sphere { .. } | Self::Plane { .. } => None,
+        }
+    }
 }

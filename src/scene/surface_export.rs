@@ -1,4 +1,4 @@
-use super::{Object, Shape};
+use super::Object;
 use crate::geometry::bezier::{ControlNet, Patch, QuadMesh, write_bpt, write_obj, write_step, write_stl};
 use std::{num::NonZeroUsize, path::Path};
 
@@ -70,11 +70,11 @@ impl SurfaceFormat {
 }
 
 impl SurfaceExport {
-    /// The patches of all Bezier objects; `None` if there are none.
+    /// The patches of all Bezier objects and surfaces of revolution; `None` if there are none.
     pub fn of<'a>(objects: impl IntoIterator<Item = &'a Object>) -> Option<Self> {
         let (mut names, mut patches) = (Vec::new(), Vec::new());
         for object in objects {
-            let Shape::Bezier(bezier) = &object.shape else { continue };
+            let Some(bezier) = object.shape.surface() else { continue };
             names.push(object.name.as_str());
             patches.extend(bezier.placed_patches());
         }

@@ -156,7 +156,7 @@ fn surfaces(scene: &Scene, lights: &[Light]) -> Result<(Vec<Description>, Vec<Su
             front_side: (first + place.sheet) << 1 | u32::from(!place.is_flipped),
             shared: place.shared,
         };
-        if let Shape::Bezier(bezier) = &object.shape {
+        if let Some(bezier) = object.shape.surface() {
             let mut nets = bezier.placed_nets();
             surfaces.extend(welded_sheets(&mut nets).into_iter().map(surface));
             let is_mirrored = bezier.transform.is_mirroring();
@@ -184,7 +184,7 @@ fn simple_primitive(shape: &Shape) -> Primitive {
         Shape::Sphere { center, radius } => Primitive::Sphere(Sphere { center, radius }),
         Shape::Plane { point, normal, u_axis } => Primitive::Plane(Plane::new(point, normal, u_axis)),
         // Patches have a description of their own; no ray hits an empty quad.
-        Shape::Bezier(_) => Primitive::Quad(Quad::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO)),
+        Shape::Bezier(_) | Shape::Revolution(_) => Primitive::Quad(Quad::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO)),
     }
 }
 
@@ -275,5 +275,49 @@ impl Textures<'_> {
         let image = Arc::new(key.decode()?);
         self.decoded.push((key, image.clone()));
         Ok(image)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Object, Revolution, SceneFile, Transform};
+    use glam::DVec2;
+
+    #[test]
+    fn a_revolution_and_its_patches_make_one_world() {
+        let profile = [(0.0, -0.5), (0.6, -0.5), (0.8, 0.4), (0.0, 0.5)].map(DVec2::from).to_vec();
+        let transform = Transform { rotate: DVec3::new(10.0, 20.0, 30.0), ..Transform::default() };
+        let file = SceneFile::built_in("lens").unwrap();
+        let mut scene = file.scene;
+        let glass =
+            scene.materials.iter().find(|m| matches!(m.model, MaterialModel::Glass { .. })).unwrap().name.clone();
+        let revolution = Revolution::new(transform, profile, 360.0, false);
+        let surface = revolution.surface().clone();
+        let shape = Shape::Revolution(revolution);
+        scene.objects.push(Object { name: "drop".to_owned(), material: glass, shape, body: Some("drop".to_owned()) });
+        let world = prepare(&scene, &file.location, None).unwrap();
+        scene.objects.last_mut().unwrap().shape = Shape::Bezier(surface);
+        let patches = prepare(&scene, &file.location, None).unwrap();
+        let count = world.aggregate.primitives().len();
+        for (a, b) in world.aggregate.primitives().iter().zip(patches.aggregate.primitives()) {
+            let net = |primitive: &Primitive| match primitive {
+                Primitive::Patch(patch) => Some((*patch.net(), patch.is_mirrored())),
+                _ => None,
+            };
+            assert_eq!(net(a), net(b));
+        }
+        assert_eq!(count, patches.aggregate.primitives().len());
+        assert_eq!(format!("{:?}", world.surfaces), format!("{:?}", patches.surfaces), "bodies, sheets, sides");
+        assert_eq!(format!("{:?}", world.texture_places), format!("{:?}", patches.texture_places));
+        // The whole surface is one sheet: its patches share their edges.
+        let sheets = world.surfaces.iter().rev().filter_map(|surface| match surface {
+            Surface::Object { object, front_side, .. } if *object as usize == scene.objects.len() - 1 => {
+                Some(front_side >> 1)
+            }
+            _ => None,
+        });
+        let sheets: std::collections::BTreeSet<_> = sheets.collect();
+        assert_eq!(sheets.len(), 1, "{sheets:?}");
     }
 }

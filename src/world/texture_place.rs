@@ -1,5 +1,5 @@
 use crate::geometry::Tangents;
-use crate::scene::{Scene, Shape, UvRect};
+use crate::scene::{Scene, UvRect};
 
 /// For each primitive before the last patch with a rectangle of its own, the part of texture space that it shows; empty
 /// in scenes without such patches.
@@ -12,7 +12,7 @@ impl TexturePlaces {
         let mut places = Vec::new();
         let mut first = 0;
         for object in &scene.objects {
-            let Shape::Bezier(bezier) = &object.shape else {
+            let Some(bezier) = object.shape.surface() else {
                 first += 1;
                 continue;
             };

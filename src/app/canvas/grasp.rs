@@ -120,7 +120,7 @@ impl Grasp {
         let Some(pressed) = pressed.filter(|_| canvas.drag_started_by(PointerButton::Primary)) else {
             return;
         };
-        let has_points = stage.shows_handles && stage.document.selection.bezier(stage.document.scene()).is_some();
+        let has_points = stage.shows_handles && stage.document.selection.surface(stage.document.scene()).is_some();
         let film = stage.transform.to_film(pressed);
         self.held = match scenery.target(pressed) {
             _ if self.selects_rectangle => Some(Held::Rectangle(pressed)),
@@ -198,6 +198,10 @@ impl Grasp {
         let bezier = selection.bezier(stage.document.scene()).filter(|_| stage.shows_handles);
         if let (Item::Object(object), Some(bezier)) = (selection.item, bezier) {
             overlay::paint_net(&painter, stage, object, bezier);
+        }
+        let revolution = selection.revolution(stage.document.scene()).filter(|_| stage.shows_handles);
+        if let Some(revolution) = revolution {
+            overlay::paint_profile(&painter, stage, revolution);
         }
         if let Some(gizmo) = &scenery.gizmo {
             let part = hot.and_then(|hot| if let Target::Part(part) = hot { Some(part) } else { None });

@@ -5,11 +5,15 @@ use super::falloff::weight;
 use super::snap::snapped;
 use super::stage::Stage;
 use crate::app::document::{Edit, Handle};
+use crate::scene::Shape;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeSet;
 
 /// Rounding errors of a position, over its distance from the origin: of a few operations in double precision, and far below what can be seen.
 const ROUNDING: f64 = 1e-12;
+
+/// Sine of the angle between the line of sight and a plane below which a pointer's place in the plane is too uncertain, 12 degrees.
+const EDGE_ON: f64 = 0.2;
 
 /// The handles that a drag moves, and how they follow the pointer.
 #[derive(Clone, Debug)]
@@ -42,7 +46,8 @@ struct Follower {
 impl Movement {
     /// Starts to drag one handle; `None` where it is behind the camera.
     pub(crate) fn of_handle(stage: &Stage<'_>, handle: Handle, pointer: DVec2, normal: Option<DVec3>) -> Option<Self> {
-        Self::new(stage, vec![handle], (Constraint::Facing, normal), Some(pointer))
+        let bound = profile_plane(stage, handle).map_or(Constraint::Facing, Constraint::Plane);
+        Self::new(stage, vec![handle], (bound, normal), Some(pointer))
     }
 
     /// Starts to drag the selection by a part of its gizmo; `None` where the selection is behind the camera.
@@ -125,6 +130,18 @@ impl Movement {
             }
         }
     }
+}
+
+/// The normal of the plane in which the profile of a surface of revolution lies, world space; `None` for handles off such a
+/// profile, and where the camera sees that plane nearly from the edge: there the pointer has no place in the plane.
+fn profile_plane(stage: &Stage<'_>, handle: Handle) -> Option<DVec3> {
+    let Handle::Point { object, .. } = handle else { return None };
+    let Shape::Revolution(revolution) = &stage.document.scene().objects.get(object)?.shape else { return None };
+    let axes = revolution.transform().world_from_object().matrix3;
+    let normal = axes.x_axis.cross(axes.y_axis).try_normalize()?;
+    let film = stage.projection.project(handle.position(stage.document.scene())?)?;
+    let sine = stage.projection.ray(film).direction.try_normalize()?.dot(normal).abs();
+    (sine > EDGE_ON).then_some(normal)
 }
 
 /// The way from one position to another; `None` where it is no longer than rounding errors: a point of an object that is turned never comes

@@ -12,6 +12,7 @@ pub(crate) fn at_selection(scene: &Scene, selection: &Selection) -> Option<DVec3
     let normal = match selection.item {
         Item::Object(index) => match &scene.objects.get(index)?.shape {
             Shape::Bezier(bezier) => mean_normal(bezier, &selection.points),
+            Shape::Revolution(revolution) => mean_normal(revolution.surface(), &selection.points),
             Shape::Quad { edge_u, edge_v, .. } => edge_u.cross(*edge_v),
             Shape::Plane { normal, .. } => *normal,
             Shape::Sphere { .. } => return None,

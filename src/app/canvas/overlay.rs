@@ -5,9 +5,9 @@ use super::gizmo::{Axis, Gizmo, Part};
 use super::stage::{Look, ScreenHandle, Stage, is_tiny};
 use crate::app::document::{Handle, PointIndex};
 use crate::app::theme::{self, overlay};
-use crate::scene::Bezier;
+use crate::scene::{Bezier, Revolution};
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, vec2};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::array;
 
 /// Radius of a handle at every zoom, screen points.
@@ -40,6 +40,14 @@ pub(crate) fn paint_net(painter: &Painter, stage: &Stage<'_>, object: usize, bez
             }
         }
     }
+}
+
+/// Paints the control polygon of the profile of a surface of revolution.
+pub(crate) fn paint_profile(painter: &Painter, stage: &Stage<'_>, revolution: &Revolution) {
+    let world_from_object = revolution.transform().world_from_object();
+    let screen = |point: &DVec2| stage.screen(world_from_object.transform_point3(point.extend(0.0)));
+    let screen: Vec<_> = revolution.profile().iter().map(screen).collect();
+    screen.windows(2).for_each(|ends| paint_segment(painter, ends[0].zip(ends[1]), true));
 }
 
 /// The neighbours in the 4 x 4 control points of a patch, in pairs.

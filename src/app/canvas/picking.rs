@@ -92,9 +92,9 @@ impl Surfaces {
 impl Prepared {
     /// The primitives of a shape, with the patches of `before` that it keeps. A shape that cannot be rendered has none.
     fn new(shape: &Shape, before: Option<&Self>) -> Self {
-        let primitives = match shape {
-            Shape::Bezier(bezier) => patches(bezier, before.map_or(&[], |before| &before.primitives)),
-            simple => simple_primitive(simple).map(|primitive| (0, primitive)).into_iter().collect(),
+        let primitives = match shape.surface() {
+            Some(surface) => patches(surface, before.map_or(&[], |before| &before.primitives)),
+            None => simple_primitive(shape).map(|primitive| (0, primitive)).into_iter().collect(),
         };
         Self { shape: shape.clone(), primitives }
     }
@@ -108,7 +108,7 @@ pub(super) fn simple_primitive(shape: &Shape) -> Option<Primitive> {
             Some(Primitive::Sphere(Sphere { center: *center, radius: *radius }))
         }
         Shape::Plane { point, normal, u_axis } => Some(Primitive::Plane(Plane::new(*point, *normal, *u_axis))),
-        Shape::Sphere { .. } | Shape::Bezier(_) => None,
+        Shape::Sphere { .. } | Shape::Bezier(_) | Shape::Revolution(_) => None,
     }
 }
 

@@ -27,7 +27,10 @@ impl Sight {
     pub(crate) fn update(&mut self, document: &Document, projection: &Projection, pointer: Option<DVec2>) {
         let (scene, selection) = (document.scene(), &document.selection);
         self.surfaces.update(document.file());
-        self.welds.update(selection.bezier(scene));
+        match selection.revolution(scene) {
+            Some(revolution) => self.welds.update_profile(revolution),
+            None => self.welds.update(selection.bezier(scene)),
+        }
         self.hovered = pointer
             .and_then(|film| self.surfaces.nearest(&projection.ray(film)))
             .filter(|pick| selection.item == Item::Object(pick.object))

@@ -119,7 +119,7 @@ impl Stage<'_> {
 
     /// Which patches of the selected object are too small on the screen to show their control points; empty for other items.
     fn tiny_patches(&self) -> Vec<bool> {
-        let Some(bezier) = self.document.selection.bezier(self.document.scene()) else { return Vec::new() };
+        let Some(bezier) = self.document.selection.surface(self.document.scene()) else { return Vec::new() };
         let world_from_object = bezier.transform.world_from_object();
         let screen = |point: &DVec3| self.screen(world_from_object.transform_point3(*point));
         bezier
@@ -142,7 +142,10 @@ impl Stage<'_> {
         let (handle, current) = match id {
             Handle::Point { object, point } => {
                 let (point, current) = self.sight.representative(point, self.document.selection.patch);
-                (Handle::Point { object, point }, current || self.sight.x_ray || self.is_selected(id))
+                // A profile has one row of handles, of all its patches.
+                let is_profile = self.document.selection.revolution(self.document.scene()).is_some();
+                let current = current || is_profile || self.sight.x_ray || self.is_selected(id);
+                (Handle::Point { object, point }, current)
             }
             Handle::Object(_) | Handle::Light(_) => (id, true),
         };

@@ -28,6 +28,7 @@ pub(crate) enum Action {
     ResetPoints,
     ToggleTangents,
     NextMirror,
+    ConvertToPatches,
     TogglePause,
     Restart,
     Fit,
@@ -118,6 +119,7 @@ const TABLE: &[Row] = &[
     (Action::ResetPoints, "Reset control points", &[(Modifiers::SHIFT, Key::R)]),
     (Action::ToggleTangents, "Keep tangents across seams", &[(NONE, Key::G)]),
     (Action::NextMirror, "Mirror symmetry", &[(NONE, Key::M)]),
+    (Action::ConvertToPatches, "Convert to patches", &[]),
     (Action::TogglePause, "Pause or resume", &[(NONE, Key::Space)]),
     (Action::Restart, "Restart rendering", &[(NONE, Key::R)]),
     (Action::Fit, "Fit picture", &[(NONE, Key::F), (CTRL, Key::Num0)]),
@@ -223,6 +225,9 @@ impl Action {
             }
             Self::ToggleGuide => {
                 "Ten minutes from the first start to a caustic of your own, and a section for each task"
+            }
+            Self::ConvertToPatches => {
+                "Replaces the surface of revolution by its patches, whose control points can then be moved one by one"
             }
             Self::NextMirror => "Moves control points in pairs, mirrored across a plane: off, x, y, z in turn",
             _ => "",

@@ -161,6 +161,14 @@ fn shape(a: &Shape, b: &Shape) -> Option<&'static str> {
             ("scale", a.transform.scale == b.transform.scale),
             ("patches", (&a.patches, &a.file, &a.uv) == (&b.patches, &b.file, &b.uv)),
         ]),
+        (Shape::Revolution(a), Shape::Revolution(b)) => only(&[
+            ("translation", a.transform().translate == b.transform().translate),
+            ("rotation", a.transform().rotate == b.transform().rotate),
+            ("scale", a.transform().scale == b.transform().scale),
+            ("profile", a.profile() == b.profile()),
+            ("angle", a.angle() == b.angle()),
+            ("caps", a.caps() == b.caps()),
+        ]),
         _ => Some("shape"),
     }
 }

@@ -146,8 +146,9 @@ fn replace<T>(list: &mut [T], index: usize, new: T) {
 }
 
 fn replace_surface(scene: &mut Scene, object: usize, surface: Bezier) {
-    if let Some(Object { shape: Shape::Bezier(bezier), .. }) = scene.objects.get_mut(object) {
-        *bezier = surface;
+    if let Some(Object { shape: shape @ (Shape::Bezier(_) | Shape::Revolution(_)), .. }) = scene.objects.get_mut(object)
+    {
+        *shape = Shape::Bezier(surface);
     }
 }
 

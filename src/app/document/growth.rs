@@ -2,7 +2,7 @@
 
 use super::selection::{PointIndex, Selection};
 use super::welds::Welds;
-use crate::scene::Bezier;
+use crate::scene::{Bezier, Revolution};
 use std::collections::BTreeSet;
 
 /// A direction in the nets of patches.
@@ -28,6 +28,12 @@ pub(crate) fn all_points(bezier: &Bezier, selection: &Selection) -> BTreeSet<Poi
     let of_patch = |patch: usize| (0..16).map(move |k| PointIndex { patch, i: k / 4, j: k % 4 });
     let patch: BTreeSet<PointIndex> = of_patch(selection.patch).collect();
     if patch.is_subset(&selection.points) { (0..bezier.patches.len()).flat_map(of_patch).collect() } else { patch }
+}
+
+/// All points of the profile of a surface of revolution.
+pub(crate) fn profile_points(revolution: &Revolution) -> BTreeSet<PointIndex> {
+    let count = revolution.profile().len();
+    (0..count).map(|index| PointIndex::of_profile(index, count)).collect()
 }
 
 /// The selected control points with the rows or columns through them, within their patches; where those are selected already,

@@ -1,8 +1,8 @@
 //! The points of a scene that the user can drag: which exist, where they lie, and how they move.
 
 use super::selection::{Item, PointIndex};
-use crate::scene::{Bezier, Emitter, Object, Scene, Shape};
-use glam::DVec3;
+use crate::scene::{Bezier, Emitter, Object, Revolution, Scene, Shape};
+use glam::{DVec2, DVec3};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ const WELD_TOLERANCE: f64 = 1e-9;
 /// A point of the scene that the user can drag; an index is the item's position in its list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Handle {
-    /// A control point of a Bezier object.
+    /// A control point of a Bezier object, or of the profile of a surface of revolution.
     Point {
         /// The object's index.
         object: usize,
@@ -38,7 +38,12 @@ impl Handle {
     pub(crate) fn label(self, scene: &Scene) -> String {
         match self {
             Self::Point { object, point } => {
-                let several = bezier(scene, object).is_some_and(|bezier| bezier.patches.len() > 1);
+                let shape = scene.objects.get(object).map(|object| &object.shape);
+                if let (Some(Shape::Revolution(_)), Some(index)) = (shape, point.in_profile()) {
+                    return format!("Profile point {index}");
+                }
+                let surface = shape.and_then(Shape::surface);
+                let several = surface.is_some_and(|surface| surface.patches.len() > 1);
                 let patch = if several { format!("patch {}, ", point.patch) } else { String::new() };
                 format!("Control point {patch}P[{}][{}]", point.i, point.j)
             }
@@ -51,7 +56,7 @@ impl Handle {
     pub(crate) fn position(self, scene: &Scene) -> Option<DVec3> {
         match self {
             Self::Point { object, point } => {
-                let bezier = bezier(scene, object)?;
+                let bezier = scene.objects.get(object)?.shape.surface()?;
                 let local = bezier.patches.get(point.patch)?.points.get(point.i)?.get(point.j)?;
                 Some(bezier.transform.world_from_object().transform_point3(*local))
             }
@@ -64,11 +69,11 @@ impl Handle {
     /// because a scale is zero.
     pub(crate) fn translate(self, scene: &mut Scene, by: DVec3) {
         match self {
-            Self::Point { object, point } => {
-                if let Some(Object { shape: Shape::Bezier(bezier), .. }) = scene.objects.get_mut(object) {
-                    translate_point(bezier, point, by);
-                }
-            }
+            Self::Point { object, point } => match scene.objects.get_mut(object).map(|object| &mut object.shape) {
+                Some(Shape::Bezier(bezier)) => translate_point(bezier, point, by),
+                Some(Shape::Revolution(revolution)) => translate_profile_point(revolution, point, by),
+                _ => {}
+            },
             Self::Object(object) => {
                 if let Some(object) = scene.objects.get_mut(object) {
                     translate_shape(&mut object.shape, by);
@@ -90,7 +95,7 @@ pub(crate) fn visible(scene: &Scene, selected: Item, welds: &[BTreeSet<PointInde
     let items = (0..scene.lights.len()).map(Handle::Light).chain(object);
     let mut handles: Vec<_> = items.filter_map(|handle| Some((handle, handle.position(scene)?))).collect();
     if let Item::Object(object) = selected
-        && let Some(bezier) = bezier(scene, object)
+        && let Some(bezier) = scene.objects.get(object).and_then(|object| object.shape.surface())
     {
         // Once for all points: it takes the sines of three angles.
         let world_from_object = bezier.transform.world_from_object();
@@ -136,19 +141,13 @@ pub(super) fn weld_groups(bezier: &Bezier) -> Vec<BTreeSet<PointIndex>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-fn bezier(scene: &Scene, object: usize) -> Option<&Bezier> {
-    match &scene.objects.get(object)?.shape {
-        Shape::Bezier(bezier) => Some(bezier),
-        _ => None,
-    }
-}
-
 fn object_center(object: &Object) -> Option<DVec3> {
     Some(match &object.shape {
         Shape::Quad { corner, edge_u, edge_v } => *corner + 0.5 * (*edge_u + *edge_v),
         Shape::Sphere { center, .. } => *center,
         Shape::Plane { point, .. } => *point,
-        Shape::Bezier(bezier) => {
+        Shape::Bezier(_) | Shape::Revolution(_) => {
+            let bezier = object.shape.surface()?;
             let count = 16 * bezier.patches.len();
             let sum: DVec3 = control_points(bezier).map(|(_, at)| at).sum();
             return (count > 0).then(|| bezier.transform.world_from_object().transform_point3(sum / count as f64));
@@ -175,6 +174,18 @@ fn translate_point(bezier: &mut Bezier, point: PointIndex, by: DVec3) {
     }
 }
 
+/// Moves a point of the profile within the profile's plane, z = 0 in object space; not beyond the axis.
+fn translate_profile_point(revolution: &mut Revolution, point: PointIndex, by: DVec3) {
+    let by = revolution.transform().world_from_object().inverse().transform_vector3(by);
+    let mut profile = revolution.profile().to_vec();
+    if let Some(moved) = point.in_profile().and_then(|index| profile.get_mut(index))
+        && by.is_finite()
+    {
+        *moved = (*moved + by.truncate()).max(DVec2::new(0.0, f64::NEG_INFINITY));
+        *revolution = revolution.with_profile(profile);
+    }
+}
+
 fn set_point(bezier: &mut Bezier, point: PointIndex, change: impl FnOnce(&mut DVec3)) {
     let net = Arc::make_mut(&mut bezier.patches).get_mut(point.patch);
     if let Some(position) = net.and_then(|net| net.points.get_mut(point.i)?.get_mut(point.j)) {
@@ -191,6 +202,7 @@ pub(super) fn translate_shape(shape: &mut Shape, by: DVec3) {
         | Shape::Sphere { center: position, .. }
         | Shape::Plane { point: position, .. } => *position += by,
         Shape::Bezier(bezier) => bezier.transform.translate += by,
+        Shape::Revolution(revolution) => revolution.transform_mut().translate += by,
     }
 }
 
@@ -234,6 +246,10 @@ mod tests {
         }
     }
 
+    fn surface(scene: &Scene) -> &Bezier {
+        scene.objects[0].shape.surface().unwrap()
+    }
+
     #[test]
     fn a_point_moves_by_the_world_vector_through_the_transform() {
         let mut scene = scene();
@@ -242,13 +258,13 @@ mod tests {
         handle.translate(&mut scene, by);
         let after = handle.position(&scene).unwrap();
         assert!(after.distance(before + by) < TOLERANCE, "{after} is not {}", before + by);
-        assert_eq!(bezier(&scene, 0).unwrap().file, None, "the points now differ from the file");
+        assert_eq!(surface(&scene).file, None, "the points now differ from the file");
     }
 
     #[test]
     fn a_moved_control_point_leaves_its_neighbours_in_place() {
         let mut scene = scene();
-        let groups = weld_groups(bezier(&scene, 0).unwrap());
+        let groups = weld_groups(surface(&scene));
         let others: Vec<_> = visible(&scene, Item::Object(0), &groups)
             .into_iter()
             .filter(|(handle, _)| matches!(handle, Handle::Point { point, .. } if *point != PointIndex::default()))
@@ -301,11 +317,11 @@ mod tests {
     #[test]
     fn the_seam_of_two_patches_is_one_row_of_handles() {
         let scene = scene();
-        let points = weld_groups(bezier(&scene, 0).unwrap()).len();
+        let points = weld_groups(surface(&scene)).len();
         assert_eq!(points, 2 * 16 - 4, "the patches share four positions");
         let seam = PointIndex { patch: 0, i: 3, j: 1 };
         let expected = BTreeSet::from([seam, PointIndex { patch: 1, i: 0, j: 1 }]);
-        assert!(weld_groups(bezier(&scene, 0).unwrap()).contains(&expected));
+        assert!(weld_groups(surface(&scene)).contains(&expected));
     }
 
     #[test]

@@ -16,6 +16,7 @@ pub(crate) fn shape_kind(shape: &Shape) -> &'static str {
         Shape::Sphere { .. } => "sphere",
         Shape::Plane { .. } => "plane",
         Shape::Bezier(_) => "bezier",
+        Shape::Revolution(_) => "revolution",
     }
 }
 

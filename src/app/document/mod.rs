@@ -7,6 +7,7 @@
 //! | `handles` | the draggable points of a scene: which exist, where they lie, how they move |
 //! | `welds` | [`Welds`]: the welded control points of an object |
 //! | `growth` | sets of control points to select: all, rows, columns |
+//! | `profile` | operations on the profile of a surface of revolution |
 //! | `surface/` | operations on the patches of an object, and which control points move together |
 //! | `placement` | the places and sizes of new items |
 //! | `edit` | [`Edit`]: every change of a scene, as data |
@@ -30,6 +31,7 @@ mod names;
 pub(crate) mod new_items;
 mod placement;
 pub(crate) mod presets;
+pub(crate) mod profile;
 mod selection;
 mod stamp;
 mod state;
@@ -37,7 +39,7 @@ pub(crate) mod surface;
 mod welds;
 
 pub(crate) use edit::{Edit, texture_names, user_of};
-pub(crate) use growth::{Direction, all_points, with_lines};
+pub(crate) use growth::{Direction, all_points, profile_points, with_lines};
 pub(crate) use handles::Handle;
 pub(crate) use new_items::NewItem;
 pub(crate) use selection::{Item, PointIndex, Selection};

@@ -10,10 +10,10 @@ use crate::geometry::Sphere;
 use crate::geometry::bezier::ControlNet;
 use crate::math::Rgb;
 use crate::scene::{
-    Bezier, Color, Emitter, Encoding, Light, Location, Material, MaterialModel, Object, Scene, Shape, Texture,
-    Transform,
+    Bezier, Color, Emitter, Encoding, Light, Location, Material, MaterialModel, Object, Revolution, Scene, Shape,
+    Texture, Transform,
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::array;
 use std::path::Path;
 use std::sync::Arc;
@@ -30,6 +30,7 @@ const LAMP: f64 = 0.5;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NewItem {
     Patch,
+    Revolution,
     Sphere,
     Quad,
     Plane,
@@ -42,7 +43,7 @@ pub(crate) enum NewItem {
 
 impl NewItem {
     /// The entries of the menu "Add to Objects".
-    pub(crate) const OBJECTS: [Self; 4] = [Self::Patch, Self::Sphere, Self::Quad, Self::Plane];
+    pub(crate) const OBJECTS: [Self; 5] = [Self::Patch, Self::Revolution, Self::Sphere, Self::Quad, Self::Plane];
     /// The entries of the menu "Add to Lights".
     pub(crate) const LIGHTS: [Self; 5] = [Self::PointLight, Self::SphereLight, Self::QuadLight, Self::Sun, Self::Beam];
 
@@ -50,6 +51,7 @@ impl NewItem {
     pub(crate) fn label(self) -> &'static str {
         match self {
             Self::Patch => "patch",
+            Self::Revolution => "surface of revolution",
             Self::Sphere => "sphere",
             Self::Quad => "quad",
             Self::Plane => "plane",
@@ -72,6 +74,7 @@ impl NewItem {
         let turned = Transform { translate: room.center, rotate: facing(room.center, eye), ..Transform::default() };
         let shape = match self {
             Self::Patch => Shape::Bezier(sheet(turned, HALF_SIDE * room.radius)),
+            Self::Revolution => Shape::Revolution(vase(room, turned.rotate.y)),
             Self::Sphere => Shape::Sphere { center: room.center, radius: HALF_SIDE * room.radius },
             Self::Quad => {
                 let side = 2.0 * HALF_SIDE * room.radius;
@@ -203,6 +206,16 @@ fn sheet(transform: Transform, half: f64) -> Bezier {
     let lift = |i: usize, j: usize| if (1..3).contains(&i) && (1..3).contains(&j) { 0.6 * half } else { 0.0 };
     let points = array::from_fn(|i| array::from_fn(|j| DVec3::new(along(j), lift(i, j), along(i))));
     Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None, uv: None }
+}
+
+/// A vase inside of a ball, turned about y by an angle in degrees, so that its profile lies across the line of sight. The profile
+/// goes up, with its outside away from the axis.
+fn vase(room: &Sphere, turn: f64) -> Revolution {
+    // All points lie within a radius of 1.
+    let outline = [(0.45, -0.8), (0.8, -0.35), (0.6, 0.1), (0.3, 0.3), (0.15, 0.4), (0.25, 0.7), (0.45, 0.8)];
+    let profile = outline.map(|point| room.radius * DVec2::from(point)).to_vec();
+    let transform = Transform { translate: room.center, rotate: DVec3::new(0.0, turn, 0.0), ..Transform::default() };
+    Revolution::new(transform, profile, 360.0, false)
 }
 
 fn object_name(scene: &Scene, wanted: &str) -> String {

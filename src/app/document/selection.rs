@@ -1,6 +1,6 @@
 //! The selected item and control points.
 
-use crate::scene::{Bezier, Object, Scene, Shape};
+use crate::scene::{Bezier, Object, Revolution, Scene, Shape};
 use std::collections::BTreeSet;
 
 /// A part of the scene that can be selected; an index is its position in the scene's list.
@@ -36,6 +36,20 @@ impl PointIndex {
     pub(crate) fn place(self) -> usize {
         16 * self.patch + 4 * self.i + self.j
     }
+
+    /// The control point of a surface of revolution that is the point `index` of its profile, of `count` points. The segments
+    /// of the profile are the rows i = 0 of the first patches; a point that two segments share is the first of the later one.
+    pub(crate) fn of_profile(index: usize, count: usize) -> Self {
+        let last = (count / 3).saturating_sub(1);
+        let patch = (index / 3).min(last);
+        Self { patch, i: 0, j: index - 3 * patch }
+    }
+
+    /// The index in the profile of a control point in the first rows of a surface of revolution; `None` for other rows. For a patch
+    /// after those of the profile the index is beyond its end.
+    pub(crate) fn in_profile(self) -> Option<usize> {
+        (self.i == 0 && self.j < 4).then(|| 3 * self.patch + self.j)
+    }
 }
 
 /// The selected item and, for a Bezier object, its selected control points.
@@ -53,9 +67,9 @@ impl Selection {
         Self { item, ..Self::default() }
     }
 
-    /// Selects the first Bezier object, which users edit most; else the first object; else the camera.
+    /// Selects the first object of patches, which users edit most; else the first object; else the camera.
     pub(crate) fn first_of(scene: &Scene) -> Self {
-        let bezier = scene.objects.iter().position(|object| matches!(object.shape, Shape::Bezier(_)));
+        let bezier = scene.objects.iter().position(|object| object.shape.surface().is_some());
         let first = bezier.or((!scene.objects.is_empty()).then_some(0));
         first.map_or_else(Self::default, |object| Self::of(Item::Object(object)))
     }
@@ -72,8 +86,14 @@ impl Selection {
         if !exists {
             return Self::first_of(scene);
         }
-        let patches = self.bezier(scene).map_or(0, |bezier| bezier.patches.len());
-        self.points.retain(|point| point.patch < patches);
+        let patches = self.surface(scene).map_or(0, |surface| surface.patches.len());
+        match self.object(scene).map(|object| &object.shape) {
+            Some(Shape::Revolution(revolution)) => {
+                let count = revolution.profile().len();
+                self.points.retain(|point| point.in_profile().is_some_and(|index| index < count));
+            }
+            _ => self.points.retain(|point| point.patch < patches),
+        }
         self.patch = self.patch.min(patches.saturating_sub(1));
         self
     }
@@ -90,6 +110,19 @@ impl Selection {
     pub(crate) fn bezier<'a>(&self, scene: &'a Scene) -> Option<&'a Bezier> {
         match &self.object(scene)?.shape {
             Shape::Bezier(bezier) => Some(bezier),
+            _ => None,
+        }
+    }
+
+    /// The patches of the selected object, given ones or those of a surface of revolution; `None` for other items.
+    pub(crate) fn surface<'a>(&self, scene: &'a Scene) -> Option<&'a Bezier> {
+        self.object(scene)?.shape.surface()
+    }
+
+    /// The selected surface of revolution; `None` when any other item is selected.
+    pub(crate) fn revolution<'a>(&self, scene: &'a Scene) -> Option<&'a Revolution> {
+        match &self.object(scene)?.shape {
+            Shape::Revolution(revolution) => Some(revolution),
             _ => None,
         }
     }

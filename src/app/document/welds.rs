@@ -3,7 +3,7 @@
 use super::handles::weld_groups;
 use super::selection::PointIndex;
 use crate::geometry::bezier::ControlNet;
-use crate::scene::Bezier;
+use crate::scene::{Bezier, Revolution};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -39,6 +39,20 @@ impl Welds {
         self.group_of = vec![0; 16 * bezier.patches.len()];
         for (group, points) in self.groups.iter().enumerate() {
             points.iter().for_each(|point| self.group_of[point.place()] = group);
+        }
+    }
+
+    /// Makes a group of each point of a profile: a surface of revolution has handles on its profile alone.
+    pub(crate) fn update_profile(&mut self, revolution: &Revolution) {
+        let count = revolution.profile().len();
+        let patches = &revolution.surface().patches;
+        let points = if patches.is_empty() { 0 } else { count };
+        self.patches = None;
+        self.groups = (0..points).map(|k| BTreeSet::from([PointIndex::of_profile(k, count)])).collect();
+        // Control points off the profile belong to no group.
+        self.group_of = vec![usize::MAX; 16 * patches.len()];
+        for (patch, j) in (0..points / 3).flat_map(|patch| (0..4).map(move |j| (patch, j))) {
+            self.group_of[PointIndex { patch, i: 0, j }.place()] = 3 * patch + j;
         }
     }
 

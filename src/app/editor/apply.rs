@@ -78,6 +78,7 @@ impl Editor {
             Action::Flatten | Action::Smooth | Action::ResetPoints => self.fair(action),
             Action::ToggleTangents => self.document.coupling.tangents = !self.document.coupling.tangents,
             Action::NextMirror => self.next_mirror(),
+            Action::ConvertToPatches => self.convert_to_patches(),
             Action::TogglePause => self.rendering.toggle_pause(),
             Action::Restart => self.rendering.restart(),
             Action::Fit => self.canvas.fit(),

@@ -1,7 +1,7 @@
 //! Selects control points: all, none, by rectangle, rows and columns.
 
 use super::state::Editor;
-use crate::app::document::{Direction, PointIndex, Selection, Welds, all_points, with_lines};
+use crate::app::document::{Direction, PointIndex, Selection, Welds, all_points, profile_points, with_lines};
 use std::collections::BTreeSet;
 
 impl Editor {
@@ -17,7 +17,11 @@ impl Editor {
     /// Selects all control points of the patch in the side panel; a second time all of the object.
     pub(crate) fn select_all(&mut self) {
         let selection = &self.document.selection;
-        let points = selection.bezier(self.document.scene()).map(|bezier| all_points(bezier, selection));
+        let scene = self.document.scene();
+        let points = match selection.revolution(scene) {
+            Some(revolution) => Some(profile_points(revolution)),
+            None => selection.bezier(scene).map(|bezier| all_points(bezier, selection)),
+        };
         self.select_points(points);
     }
 
@@ -28,7 +32,7 @@ impl Editor {
 
     /// Lets the next drag select control points by a rectangle.
     pub(crate) fn select_rectangle(&mut self) {
-        let has_points = self.document.selection.bezier(self.document.scene()).is_some();
+        let has_points = self.document.selection.surface(self.document.scene()).is_some();
         if has_points && self.canvas.show_handles {
             self.canvas.grasp.selects_rectangle = true;
         } else {

@@ -44,13 +44,30 @@ impl Editor {
         self.toasts.info(name.map_or("Mirror symmetry is off".to_owned(), |name| format!("Mirror symmetry in {name}")));
     }
 
+    /// Replaces the selected surface of revolution by its patches.
+    pub(super) fn convert_to_patches(&mut self) {
+        let selection = &self.document.selection;
+        match (selection.item, selection.revolution(self.document.scene())) {
+            (Item::Object(object), Some(revolution)) => {
+                let surface = revolution.surface().clone();
+                self.document.edit(Edit::Patches(object, surface, "convert to patches"));
+            }
+            _ => drop(self.toasts.warning("Select a surface of revolution first")),
+        }
+    }
+
     /// The selected object of patches with its index; `None`, with a message, where another item is selected.
     fn selected_patches(&mut self) -> Option<(usize, Bezier)> {
         let selection = &self.document.selection;
         match (selection.item, selection.bezier(self.document.scene())) {
             (Item::Object(object), Some(bezier)) => Some((object, bezier.clone())),
             _ => {
-                self.toasts.warning("Select an object of patches first");
+                let is_revolution = selection.revolution(self.document.scene()).is_some();
+                self.toasts.warning(if is_revolution {
+                    "Convert the surface of revolution to patches first, in the menu \"Surface\""
+                } else {
+                    "Select an object of patches first"
+                });
                 None
             }
         }

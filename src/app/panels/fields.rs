@@ -118,7 +118,7 @@ pub(crate) fn count<N: Numeric>(
     response.on_hover_text(typing::HELP)
 }
 
-fn unit_ui(ui: &mut Ui, unit: &str) {
+pub(super) fn unit_ui(ui: &mut Ui, unit: &str) {
     if !unit.is_empty() {
         ui.weak(unit);
     }

@@ -14,6 +14,8 @@ const TIPS: &[(&str, &str)] = &[
     ),
     ("Type", "The kind of material or light; colours that both kinds have are kept"),
     ("Preset", "Takes the parameters of real glass, metal or paint; the name, the relief and the priority stay"),
+    ("Angle", "How far the profile turns around the axis: 360° for all around"),
+    ("Caps", "Discs from the axis to the ends of the profile, and walls at the ends of a turn of less than 360°"),
     ("Position", "A point in world space, scene units"),
     ("Target", "The point that the camera looks at, scene units"),
     ("Up", "The direction that points up in the picture"),

@@ -14,6 +14,7 @@ pub(super) enum Icon {
     Camera,
     Settings,
     Patch,
+    Vase,
     Ball,
     Parallelogram,
     Plane,
@@ -34,6 +35,7 @@ impl Icon {
             Shape::Sphere { .. } => Self::Ball,
             Shape::Plane { .. } => Self::Plane,
             Shape::Bezier(_) => Self::Patch,
+            Shape::Revolution(_) => Self::Vase,
         }
     }
 
@@ -68,6 +70,12 @@ impl Icon {
             Self::Parallelogram => closed(&[(0.3, 0.2), (0.95, 0.2), (0.7, 0.8), (0.05, 0.8)]),
             Self::Plane => Drawing::Vec(vec![line(&[(0.0, 0.65), (1.0, 0.65)]), line(&[(0.5, 0.65), (0.5, 0.15)])]),
             Self::Patch => Drawing::Vec(patch().iter().map(|curve| line(curve)).collect()),
+            Self::Vase => Drawing::Vec(vec![
+                line(&[(0.3, 0.95), (0.12, 0.65), (0.38, 0.3), (0.28, 0.05)]),
+                line(&[(0.7, 0.95), (0.88, 0.65), (0.62, 0.3), (0.72, 0.05)]),
+                line(&[(0.28, 0.05), (0.72, 0.05)]),
+                line(&[(0.3, 0.95), (0.7, 0.95)]),
+            ]),
             Self::Lamp => lamp(center, 0.5 * radius, color),
             Self::Rays => Drawing::Vec(
                 [0.2, 0.5, 0.8]

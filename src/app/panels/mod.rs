@@ -14,6 +14,7 @@
 //! | `coupling` | which control points move together |
 //! | `lights` | the properties of a light |
 //! | `materials` | the properties of a material |
+//! | `revolution` | the angle, the caps and the profile of a surface of revolution |
 //! | `objects` | the properties of an object, with its control points and its material |
 //! | `settings` | the camera, the picture, the limits of light transport |
 //! | `textures` | the properties of a texture |
@@ -40,6 +41,7 @@ mod plan;
 mod presets;
 mod progress;
 mod properties;
+mod revolution;
 mod settings;
 mod textures;
 mod typing;

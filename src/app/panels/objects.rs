@@ -6,6 +6,7 @@ use super::fields::{Number, choice_row, number_row, rows, text_row, vector_row};
 use super::glossary::caption;
 use super::lengths::Lengths;
 use super::materials::{Naming, material_ui};
+use super::revolution::{profile_ui, turn_ui};
 use crate::app::commands::AppCommand;
 use crate::app::document::{Document, Edit, kinds};
 use crate::scene::{MaterialModel, Object, Scene, Shape, Transform};
@@ -39,6 +40,16 @@ pub(super) fn object_ui(
             coupling_ui(ui, document, bezier, lengths, commands);
         });
         points.header_response.on_hover_text("The points that shape the patches, and which of them move together");
+    }
+    if let Shape::Revolution(revolution) = &object.shape {
+        let profile = CollapsingHeader::new("Profile").default_open(true).show(ui, |ui| {
+            let changed = profile_ui(ui, document, revolution, lengths, commands);
+            if changed != *revolution {
+                let shape = Shape::Revolution(changed);
+                commands.push(AppCommand::Edit(Edit::Object(index, Object { shape, ..object.clone() })));
+            }
+        });
+        profile.header_response.on_hover_text("The control points that turn around the axis, by radius and height");
     }
     let material = document.scene().materials.iter().position(|material| material.name == object.material);
     if let Some(index) = material {
@@ -80,6 +91,10 @@ fn shape_ui(ui: &mut Ui, shape: &mut Shape, lengths: &Lengths) {
             u_axis_ui(ui, u_axis);
         }
         Shape::Bezier(bezier) => transform_ui(ui, &mut bezier.transform, lengths),
+        Shape::Revolution(revolution) => {
+            turn_ui(ui, revolution);
+            transform_ui(ui, revolution.transform_mut(), lengths);
+        }
     }
 }
 

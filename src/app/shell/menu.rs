@@ -182,7 +182,7 @@ fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {
 
 /// Selection of control points, and how moves treat them.
 fn select_ui(ui: &mut Ui, document: &Document, visible: Visibility, commands: &mut Vec<AppCommand>) {
-    let has_points = document.selection.bezier(document.scene()).is_some();
+    let has_points = document.selection.surface(document.scene()).is_some();
     let some = !document.selection.points.is_empty();
     for (action, enabled) in [
         (Action::SelectAll, has_points),

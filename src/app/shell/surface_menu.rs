@@ -8,7 +8,8 @@ use egui::Ui;
 /// The operations, and which control points move together.
 pub(super) fn surface_menu_ui(ui: &mut Ui, document: &Document, commands: &mut Vec<AppCommand>) {
     let enabled = document.selection.bezier(document.scene()).is_some();
-    if !enabled {
+    let is_revolution = document.selection.revolution(document.scene()).is_some();
+    if !enabled && !is_revolution {
         ui.weak("Select an object of patches");
     }
     for action in [Action::SplitU, Action::SplitV, Action::SplitBoth] {
@@ -23,4 +24,6 @@ pub(super) fn surface_menu_ui(ui: &mut Ui, document: &Document, commands: &mut V
     let mirror = document.coupling.mirror.map_or("off", |mirror| ["x", "y", "z"][mirror.axis]);
     let label = format!("{}: {mirror}", Action::NextMirror.label());
     item_ui(ui, Action::NextMirror, &label, enabled, commands);
+    ui.separator();
+    item_ui(ui, Action::ConvertToPatches, Action::ConvertToPatches.label(), is_revolution, commands);
 }

@@ -47,9 +47,13 @@ fn of_shape(shape: &Shape) -> Vec<Sphere> {
         Shape::Sphere { center, radius } => vec![Sphere { center: *center, radius: *radius }],
         Shape::Plane { .. } => Vec::new(),
         // Of the control points, because the surface lies in their convex hull, and the user drags them.
-        Shape::Bezier(bezier) => {
-            let world_from_object = bezier.transform.world_from_object();
-            handles::control_points(bezier).map(|(_, at)| point_ball(world_from_object.transform_point3(at))).collect()
+        Shape::Bezier(_) | Shape::Revolution(_) => {
+            let balls = shape.surface().map(|surface| {
+                let world_from_object = surface.transform.world_from_object();
+                let points = handles::control_points(surface);
+                points.map(|(_, at)| point_ball(world_from_object.transform_point3(at))).collect()
+            });
+            balls.unwrap_or_default()
         }
     }
 }

@@ -7,6 +7,7 @@
 //! | `surface` | [`Curvature`], area |
 //! | `normal` | the unit normal, also where the cross product of the derivatives vanishes |
 //! | `mesh` | [`QuadMesh`]: patches as a mesh, and its `.obj` |
+//! | `revolution` | [`revolved`]: surfaces of revolution as patches |
 //! | `formats/` | files of patches, to and from other programs |
 //! | `unit/` | the unit space of a patch; control nets and rays laid out for SIMD |
 //! | `tree/` | a patch cut into subpatches under a tree of boxes |
@@ -39,6 +40,7 @@
 //! - \[Farin02\] G. Farin, Curves and Surfaces for CAGD, 5th edition, 2002.
 //! - \[GeimerAbert05\] M. Geimer, O. Abert, Interactive Ray Tracing of Trimmed Bicubic Bezier Surfaces without Triangulation,
 //!   WSCG 2005.
+//! - \[Goldapp91\] M. Goldapp, Approximation of Circular Arcs by Cubic Polynomials, CAGD 8(3), 1991.
 //! - \[Kajiya82\] J. Kajiya, Ray Tracing Parametric Patches, SIGGRAPH 1982.
 //! - \[KayKajiya86\] T. Kay, J. Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986.
 //! - \[MCFS00\] W. Martin, E. Cohen, R. Fish, P. Shirley, Practical Ray Tracing of Trimmed NURBS Surfaces, JGT 5(1), 2000.
@@ -55,6 +57,7 @@ mod mesh;
 mod net;
 mod normal;
 mod patch;
+mod revolution;
 mod surface;
 mod tree;
 mod unit;
@@ -66,4 +69,5 @@ pub use formats::{
 pub use mesh::QuadMesh;
 pub use net::{ControlNet, Derivatives};
 pub use patch::{Patch, PatchHit};
+pub use revolution::{RevolvedPatch, revolved};
 pub use surface::Curvature;

@@ -70,6 +70,17 @@ impl Field for f32 {
     }
 }
 
+impl Field for bool {
+    const EXPECTED: &'static str = "true or false";
+
+    fn read(value: &DeValue<'_>, path: &str, notes: &mut Notes) -> Option<Self> {
+        match value {
+            DeValue::Boolean(b) => Some(*b),
+            _ => mismatch(value, path, Self::EXPECTED, notes),
+        }
+    }
+}
+
 impl Field for u32 {
     const EXPECTED: &'static str = "a whole number";
 

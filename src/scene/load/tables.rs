@@ -9,8 +9,8 @@ use crate::scene::data::VERSION;
 use crate::{
     math::Rgb,
     scene::{
-        Bezier, Camera, Color, Emitter, Film, Light, Material, MaterialModel, Object, Relief, Render, Scene, Shape,
-        Texture, TextureUse, Transform, problem::suggestion,
+        Bezier, Camera, Color, Emitter, Film, Light, Material, MaterialModel, Object, Relief, Render, Revolution,
+        Scene, Shape, Texture, TextureUse, Transform, problem::suggestion,
     },
 };
 use glam::{DVec2, DVec3};
@@ -237,7 +237,7 @@ fn emitter(kind: &str, t: &mut Table<'_>) -> Option<Emitter> {
 
 fn object(t: &mut Table<'_>) -> Object {
     let name = name(t);
-    let shape = by_type(t, &["quad", "sphere", "plane", "bezier"], shape);
+    let shape = by_type(t, &["quad", "sphere", "plane", "bezier", "revolution"], shape);
     let material = t.required("material", String::new());
     let shape = shape.unwrap_or(Shape::Sphere { center: DVec3::ZERO, radius: 1.0 });
     Object { name, material, shape, body: t.maybe("body") }
@@ -257,6 +257,7 @@ fn shape(kind: &str, t: &mut Table<'_>) -> Option<Shape> {
             u_axis: t.maybe("u_axis"),
         },
         "bezier" => Shape::Bezier(bezier(t)),
+        "revolution" => Shape::Revolution(revolution(t)),
         _ => return None,
     })
 }
@@ -274,6 +275,12 @@ fn bezier(t: &mut Table<'_>) -> Bezier {
     }
     let patches = Arc::new(t.optional("patches", Vec::new()));
     Bezier { transform, patches, file, uv: t.maybe("uv").map(Arc::new) }
+}
+
+fn revolution(t: &mut Table<'_>) -> Revolution {
+    let transform = t.optional("transform", Transform::default());
+    let profile: Vec<DVec2> = t.required("profile", Vec::new());
+    Revolution::new(transform, profile, t.optional("angle", 360.0), t.optional("caps", false))
 }
 
 fn transform(t: &mut Table<'_>) -> Transform {

@@ -7,7 +7,9 @@
 mod value;
 
 use super::data::VERSION;
-use super::{Bezier, Emitter, Light, Material, MaterialModel, Object, Relief, Scene, Shape, Texture, Transform};
+use super::{
+    Bezier, Emitter, Light, Material, MaterialModel, Object, Relief, Revolution, Scene, Shape, Texture, Transform,
+};
 use value::{Text, Value, net};
 
 /// The text of a scene, which loads as an equal scene. Bezier objects with a `file` have its path instead of patches.
@@ -131,17 +133,32 @@ fn object(object: &Object, t: &mut Text) {
             typed(t, "bezier", &[material]);
             bezier(b, t);
         }
+        Shape::Revolution(r) => {
+            typed(t, "revolution", &[material]);
+            revolution(r, t);
+        }
     }
     if let Some(body) = &object.body {
         t.key("body", body);
     }
 }
 
-fn bezier(bezier: &Bezier, t: &mut Text) {
-    let Transform { translate, rotate, scale } = &bezier.transform;
-    if bezier.transform != Transform::default() {
+fn transform(transform: &Transform, t: &mut Text) {
+    let Transform { translate, rotate, scale } = transform;
+    if *transform != Transform::default() {
         t.inline("transform", &[("translate", translate), ("rotate", rotate), ("scale", scale)]);
     }
+}
+
+fn revolution(revolution: &Revolution, t: &mut Text) {
+    transform(revolution.transform(), t);
+    t.key("angle", &revolution.angle());
+    t.key("caps", &revolution.caps());
+    t.list("profile", revolution.profile().iter().map(Value::toml));
+}
+
+fn bezier(bezier: &Bezier, t: &mut Text) {
+    transform(&bezier.transform, t);
     match &bezier.file {
         Some(file) => t.key("file", file),
         None => t.list("patches", bezier.patches.iter().map(net)),

@@ -2,6 +2,7 @@ use super::super::{
     Bezier, Camera, Color, Emitter, Encoding, Film, Light, Location, Material, MaterialModel, Object, Relief, Render,
     Scene, SceneFile, Shape, Texture, TextureUse, ToneCurve, Transform, UvRect, validate,
 };
+use crate::scene::Revolution;
 use crate::{geometry::bezier::ControlNet, math::Rgb};
 use glam::{DVec2, DVec3};
 use proptest::{collection::vec, prelude::*, sample::select};
@@ -138,6 +139,12 @@ fn shape() -> impl Strategy<Value = Shape> {
             let uv = has_uv.then(|| Arc::new(uv));
             Shape::Bezier(Bezier { transform, patches: Arc::new(patches), file: None, uv })
         }),
+        (transform(), 1_usize..4, vec([0.0..9.0, -9.0..9.0], 10), 0.1..=360.0, any::<bool>()).prop_map(
+            |(transform, segments, points, angle, caps)| {
+                let profile = points.into_iter().take(3 * segments + 1).map(DVec2::from_array).collect();
+                Shape::Revolution(Revolution::new(transform, profile, angle, caps))
+            }
+        ),
     ]
 }
 

@@ -61,6 +61,12 @@ impl Value for f64 {
     }
 }
 
+impl Value for bool {
+    fn toml(&self) -> String {
+        self.to_string()
+    }
+}
+
 impl Value for i32 {
     fn toml(&self) -> String {
         self.to_string()

@@ -2,8 +2,8 @@ use super::{
     checks::{Checks, MAX_LENGTH, MIN_LENGTH, is_point, parallel},
     names::Names,
 };
-use crate::scene::{Bezier, Emitter, Light, Object, Shape, Transform, UvRect};
-use glam::DVec3;
+use crate::scene::{Bezier, Emitter, Light, Object, Revolution, Shape, Transform, UvRect};
+use glam::{DVec2, DVec3};
 
 /// Checks a light.
 pub(super) fn light(light: &Light, checks: &mut Checks<'_>) {
@@ -46,6 +46,7 @@ pub(super) fn object(object: &Object, names: &Names<'_>, checks: &mut Checks<'_>
         }
         Shape::Plane { point, normal, u_axis } => plane(*point, *normal, *u_axis, checks),
         Shape::Bezier(b) => bezier(b, checks),
+        Shape::Revolution(r) => revolution(r, checks),
     }
 }
 
@@ -86,6 +87,37 @@ fn bezier(bezier: &Bezier, checks: &mut Checks<'_>) {
             }
         }
     }
+}
+
+fn revolution(revolution: &Revolution, checks: &mut Checks<'_>) {
+    transform(revolution.transform(), &mut checks.at("transform"));
+    let (angle, points) = (revolution.angle(), revolution.profile());
+    checks.require(angle > 0.0 && angle <= 360.0, "angle", || {
+        format!("found {angle:?}, expected degrees above 0 and up to 360")
+    });
+    let count = points.len();
+    checks.require(count >= 4 && count % 3 == 1, "profile", || {
+        format!(
+            "found {count} points, expected 4, 7, 10, ...: each cubic segment adds three to the point where it begins"
+        )
+    });
+    checks.require(count <= Revolution::MOST_POINTS, "profile", || {
+        format!("found {count} points, expected at most {}", Revolution::MOST_POINTS)
+    });
+    let fits = |point: &DVec2| (0.0..=MAX_LENGTH).contains(&point.x) && point.y.abs() <= MAX_LENGTH;
+    for (k, point) in points.iter().enumerate().filter(|(_, point)| !fits(point)) {
+        checks.require(false, &format!("profile[{k}]"), || {
+            format!(
+                "found {:?}, expected a point [r, y] with r from 0 to {MAX_LENGTH:?} and y from {:?} to {MAX_LENGTH:?}",
+                point.to_array(),
+                -MAX_LENGTH
+            )
+        });
+    }
+    let has_area = points.is_empty() || points.iter().any(|point| point.x != 0.0);
+    checks.require(has_area, "profile", || {
+        "found r = 0 in every point, expected a profile that leaves the axis of the turn".into()
+    });
 }
 
 fn uv_rects(uv: &[UvRect], patches: usize, checks: &mut Checks<'_>) {

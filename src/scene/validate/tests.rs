@@ -1,9 +1,9 @@
 use super::*;
 use crate::{
     math::Rgb,
-    scene::{Color, Emitter, Light, Material, MaterialModel, Object, Shape},
+    scene::{Color, Emitter, Light, Material, MaterialModel, Object, Revolution, Shape, Transform},
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 fn scene() -> Scene {
     let material = |name: &str| Material {
@@ -59,6 +59,32 @@ fn edits_that_break_a_scene_are_found() {
         shape(Shape::Plane { point: DVec3::ZERO, normal: DVec3::Y, u_axis: Some(DVec3::Y) }),
         "object[0].u_axis"
     );
+}
+
+#[test]
+fn the_values_of_a_revolution_are_checked_one_by_one() {
+    let profile = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.5, 2.0)].map(DVec2::from);
+    let problem = |change: &dyn Fn(&mut Vec<DVec2>), angle: f64| {
+        let mut profile = profile.to_vec();
+        change(&mut profile);
+        let vase = Revolution::new(Transform::default(), profile, angle, true);
+        problem_after(|s| s.objects[0].shape = Shape::Revolution(vase.clone()))
+    };
+    assert_eq!(problem(&|profile| profile[1].x = -0.1, 360.0), "object[0].profile[1]");
+    assert_eq!(problem(&|profile| profile[2].y = f64::NAN, 360.0), "object[0].profile[2]");
+    assert_eq!(problem(&|profile| profile.truncate(3), 360.0), "object[0].profile");
+    assert_eq!(problem(&|profile| profile.clear(), 360.0), "object[0].profile");
+    assert_eq!(problem(&|profile| profile.resize(Revolution::MOST_POINTS + 3, DVec2::ONE), 360.0), "object[0].profile");
+    assert_eq!(problem(&|profile| profile.iter_mut().for_each(|point| point.x = 0.0), 360.0), "object[0].profile");
+    for angle in [0.0, -90.0, 361.0, f64::NAN] {
+        assert_eq!(problem(&|_| (), angle), "object[0].angle");
+    }
+    let transform = Transform { scale: DVec3::ZERO.with_x(1.0).with_z(1.0), ..Transform::default() };
+    let flat = Revolution::new(transform, profile.to_vec(), 90.0, false);
+    assert_eq!(problem_after(|s| s.objects[0].shape = Shape::Revolution(flat.clone())), "object[0].transform.scale[1]");
+    let mut good = scene();
+    good.objects[0].shape = Shape::Revolution(Revolution::new(Transform::default(), profile.to_vec(), 90.0, false));
+    assert_eq!(validate(&good), []);
 }
 
 #[test]

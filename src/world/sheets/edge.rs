@@ -25,10 +25,18 @@ pub(super) struct Edge {
     pub(super) points: [DVec3; 4],
     /// The middle of the patch.
     pub(super) center: DVec3,
-    /// The length of the longer side that leads away from the edge, along its control points.
+    /// The length of the longer side that leads away from the edge, along its control points; of the middle lines where both sides
+    /// are points.
     width: f64,
     /// The length of the edge, along its control points.
     length: f64,
+}
+
+/// The length of the longer one of the two inner lines of control points that run like this side.
+fn middle_length(net: &ControlNet, side: usize) -> f64 {
+    let point = |line: usize, k: usize| if side < 2 { net.points[line][k] } else { net.points[k][line] };
+    let length = |line: usize| (0..3).map(|k| point(line, k).distance(point(line, k + 1))).sum::<f64>();
+    length(1).max(length(2))
 }
 
 impl Edge {
@@ -39,7 +47,9 @@ impl Edge {
         let center = net.eval(0.5, 0.5);
         [0, 1, 2, 3].map(|side| {
             let beside = if side < 2 { 2 } else { 0 };
-            let width = lengths[beside].max(lengths[beside + 1]);
+            let outer = lengths[beside].max(lengths[beside + 1]);
+            // Between two poles the patch is as wide as it is in the middle.
+            let width = if outer <= POINT * lengths[side] { middle_length(net, beside) } else { outer };
             Self { patch, side, points: points[side], center, width, length: lengths[side] }
         })
     }

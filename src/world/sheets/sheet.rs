@@ -219,6 +219,22 @@ mod tests {
     }
 
     #[test]
+    fn lunes_between_two_poles_are_one_sheet() {
+        let lune = |k: i32| {
+            let angle = move |v: f64| (f64::from(k) + v) * TAU / 16.0;
+            // No radius at both ends, u = 0 and u = 1.
+            net(move |u, v| {
+                let radius = u * (1.0 - u);
+                DVec3::new(radius * angle(v).cos(), radius * angle(v).sin(), u)
+            })
+        };
+        let mut nets: Vec<_> = (0..16).map(lune).collect();
+        for place in welded_sheets(&mut nets) {
+            assert_eq!(place, Place { shared: SharedEdges { u: [true; 2], v: [true; 2] }, ..Place::default() });
+        }
+    }
+
+    #[test]
     fn a_tube_of_one_patch_meets_itself() {
         let tube = |u: f64, v: f64| DVec3::new((TAU * u).cos(), (TAU * u).sin(), v);
         let mut nets = [net(|u, v| tube(u * (1.0 - 1e-9), v))];

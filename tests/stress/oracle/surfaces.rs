@@ -102,7 +102,8 @@ pub(super) fn shapes(shape: &patchlight::scene::Shape) -> Vec<Shape> {
             vec![Shape::Quad { corner: *corner, edge_u: *edge_u, edge_v: *edge_v }]
         }
         Described::Plane { point, normal, .. } => vec![Shape::Plane { point: *point, normal: normal.normalize() }],
-        Described::Bezier(bezier) => {
+        Described::Bezier(_) | Described::Revolution(_) => {
+            let Some(bezier) = shape.surface() else { return Vec::new() };
             let to_world = bezier.transform.world_from_object();
             let is_mirrored = to_world.matrix3.determinant() < 0.0;
             let nets = bezier.patches.iter();

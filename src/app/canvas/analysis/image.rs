@@ -54,7 +54,7 @@ pub(super) fn analysed(
     let project = |world: DVec3| Some((projection.project(world)? * detail, projection.depth(world)));
     (0..).zip(&nets).for_each(|(patch, net)| raster.draw(net, Some(patch), project));
     for other in other_shapes(scene, object) {
-        if let Shape::Bezier(other) = other {
+        if let Some(other) = other.surface() {
             other.placed_nets().iter().for_each(|net| raster.draw(net, None, project));
         }
     }

@@ -6,7 +6,7 @@ use super::legend::legend_ui;
 use crate::app::canvas::projection::Projection;
 use crate::app::canvas::stage::Stage;
 use crate::app::document::Item;
-use crate::scene::{SceneFile, Shape};
+use crate::scene::SceneFile;
 use crossbeam_channel::{Receiver, Sender, bounded};
 use egui::{Color32, Context, Pos2, Rect, TextureHandle, TextureOptions, Ui, Vec2};
 use std::sync::Arc;
@@ -30,12 +30,8 @@ impl Job {
     }
 
     fn run(&self) -> Option<Analysed> {
-        match &self.file.scene.objects.get(self.object)?.shape {
-            Shape::Bezier(bezier) => {
-                Some(analysed(&self.file.scene, self.object, bezier, &self.projection, self.film, self.analysis))
-            }
-            _ => None,
-        }
+        let surface = self.file.scene.objects.get(self.object)?.shape.surface()?;
+        Some(analysed(&self.file.scene, self.object, surface, &self.projection, self.film, self.analysis))
     }
 }
 
@@ -107,7 +103,7 @@ impl AnalysisLayer {
     fn job(&self, stage: &Stage<'_>) -> Option<Job> {
         let document = stage.document;
         let Item::Object(object) = document.selection.item else { return None };
-        document.selection.bezier(document.scene())?;
+        document.selection.surface(document.scene())?;
         let analysis = self.analysis;
         let (projection, film) = (stage.projection, stage.transform.film);
         let job = Job { file: Arc::clone(document.file()), object, projection, film, analysis };

@@ -26,7 +26,7 @@ impl Request {
     /// If there is nothing to trace: what the user has to change.
     pub(super) fn new(document: &Document, seen: &Scene) -> Result<Self, &'static str> {
         let (scene, selection) = (document.scene(), &document.selection);
-        let (Item::Object(object), Some(_)) = (selection.item, selection.bezier(scene)) else {
+        let (Item::Object(object), Some(_)) = (selection.item, selection.surface(scene)) else {
             return Err("Select a surface of patches");
         };
         if !is_specular(scene, object) {

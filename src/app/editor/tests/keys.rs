@@ -111,7 +111,7 @@ fn the_palette_runs_what_it_finds() {
     ui.key_press(Key::Enter);
     ui.run_steps(3);
     assert!(
-        matches!(scene(&ui).objects.last().unwrap().shape, Shape::Sphere { .. }),
+        matches!(scene(&ui).objects.last().unwrap().shape, Shape::Revolution(_)),
         "the second one: after the patch"
     );
 }

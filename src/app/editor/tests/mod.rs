@@ -20,6 +20,7 @@
 //! | `recovery` | unsaved changes of windows that ended |
 //! | `preferences` | remembered looks and folders, recent files |
 //! | `outside` | files that other programs change |
+//! | `revolution` | surfaces of revolution |
 //! | `surface` | splitting and fairing of patches; control points that move together |
 //! | `analysis` | isolines, curvature and reflection lines; light paths |
 //! | `fields` | typed numbers and names |
@@ -42,6 +43,7 @@ mod panels;
 mod preferences;
 mod random_input;
 mod recovery;
+mod revolution;
 mod selecting;
 mod surface;
 mod viewpoint;
