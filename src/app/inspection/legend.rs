@@ -1,7 +1,7 @@
 //! The legend of a view: its colours with their numbers, the number at the pointer, and those of the selected object.
 
 use super::colors::{LINES, color};
-use super::inspection::Inspection;
+use super::state::Inspection;
 use crate::app::commands::PictureView;
 use crate::app::theme::overlay;
 use egui::{Align2, FontId, Rect, Ui, pos2, vec2};

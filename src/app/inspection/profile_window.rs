@@ -1,7 +1,7 @@
 //! The plot of a profile, and its line on the picture.
 
-use super::inspection::Inspection;
 use super::profile::Profile;
+use super::state::Inspection;
 use crate::app::commands::{Action, AppCommand};
 use crate::app::theme::{self, overlay};
 use egui::{Color32, CursorIcon, Id, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, Window};

@@ -8,10 +8,11 @@ pub(crate) struct BackgroundImage<K, V> {
     made: Option<(K, V)>,
     texture: Option<TextureHandle>,
     busy: bool,
-    done: (Sender<Made<K, V>>, Receiver<Made<K, V>>),
+    done: Channel<Made<K, V>>,
 }
 
 type Made<K, V> = (K, ColorImage, V);
+type Channel<T> = (Sender<T>, Receiver<T>);
 
 impl<K, V> Default for BackgroundImage<K, V> {
     fn default() -> Self {
