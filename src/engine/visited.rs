@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 /// Iterations, as full ones, from which on a picture is worth its memory: one with fewer is rendered again in no time.
 const LEAST_WEIGHT: f64 = 8.0;
-/// Most pixels of all pictures together; each takes some hundred bytes.
-const MOST_PIXELS: usize = 4 << 20;
+/// Most pixels of all pictures together, each of which takes about 250 bytes.
+const MOST_PIXELS: usize = 1 << 20;
 
 /// The scenes that were left last, with what was rendered of them, from the oldest to the newest.
 #[derive(Default)]

@@ -13,6 +13,7 @@ pub(crate) enum Action {
     Export,
     ExportShown,
     ExportDeep,
+    CopyPicture,
     ExportSurface,
     Quit,
     Undo,
@@ -98,6 +99,7 @@ const TABLE: &[Row] = &[
     (Action::Export, "Export picture…", &[(CTRL, Key::E)]),
     (Action::ExportShown, "Export picture as shown…", &[]),
     (Action::ExportDeep, "Export 16-bit picture…", &[]),
+    (Action::CopyPicture, "Copy picture", &[]),
     (Action::ExportSurface, "Export surface…", &[(CTRL_SHIFT, Key::E)]),
     (Action::Quit, "Quit", &[(CTRL, Key::Q)]),
     (Action::Undo, "Undo", &[(CTRL, Key::Z)]),
@@ -174,6 +176,7 @@ impl Action {
     pub(crate) fn tip(self) -> &'static str {
         match self {
             Self::ExportShown => "A PNG as the screen shows the picture: with less noise, where it is smoothed",
+            Self::CopyPicture => "The picture as the screen shows it, to paste into another program",
             Self::ExportDeep => "A PNG with 16 bits per channel, for further editing",
             Self::SplitU | Self::SplitV | Self::SplitBoth => {
                 "Halves the shown patch exactly, and with it the whole strip of patches across, so that seams stay closed. \

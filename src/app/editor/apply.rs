@@ -64,6 +64,7 @@ impl Editor {
             Action::SaveAs => self.save_as(ctx),
             Action::Export => self.ask_for_path(ctx, Purpose::ExportPicture),
             Action::ExportShown => self.ask_for_path(ctx, Purpose::ExportShown),
+            Action::CopyPicture => self.copy_picture(ctx),
             Action::ExportDeep => self.ask_for_path(ctx, Purpose::ExportDeep),
             Action::ExportSurface => self.ask_for_surface(),
             Action::Quit => self.leave(ctx, Next::Quit),

@@ -76,6 +76,15 @@ impl Editor {
         }
     }
 
+    /// Copies the picture on the screen to the clipboard.
+    pub(crate) fn copy_picture(&mut self, ctx: &Context) {
+        if let Some(picture) = self.display.picture() {
+            let [width, height] = picture.size;
+            ctx.copy_image(egui::ColorImage::clone(picture));
+            self.toasts.info(format!("Copied {width} × {height} pixels"));
+        }
+    }
+
     fn export_picture(&mut self, purpose: Purpose, path: PathBuf) {
         if self.rendering.full_frame().is_none() {
             self.toasts.info("The picture is still a draft. It will be written after its first iteration.");

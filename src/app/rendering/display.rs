@@ -83,6 +83,11 @@ impl Display {
         self.texture.as_ref()
     }
 
+    /// The tone-mapped picture in the texture; `None` before the first.
+    pub(crate) fn picture(&self) -> Option<&Arc<ColorImage>> {
+        self.shown.as_ref().map(|shown| &shown.image)
+    }
+
     /// Whether the texture shows the newest requested image.
     pub(crate) fn is_up_to_date(&self) -> bool {
         self.requested.as_ref().map(|job| job.number) == self.shown.as_ref().map(|shown| shown.number)

@@ -91,7 +91,8 @@ fn file_ui(ui: &mut Ui, recent: &[PathBuf], commands: &mut Vec<AppCommand>) {
         item_ui(ui, action, action.label(), true, commands);
     }
     ui.separator();
-    for action in [Action::Export, Action::ExportShown, Action::ExportDeep, Action::ExportSurface] {
+    for action in [Action::Export, Action::ExportShown, Action::ExportDeep, Action::CopyPicture, Action::ExportSurface]
+    {
         item_ui(ui, action, action.label(), true, commands);
     }
     ui.separator();

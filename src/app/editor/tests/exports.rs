@@ -83,3 +83,21 @@ fn a_scene_without_patches_has_no_surface_to_export() {
     ui.run_steps(3);
     assert_eq!(ui.state().dialog, None);
 }
+
+#[test]
+fn the_picture_on_the_screen_is_copied_to_the_clipboard() {
+    let mut ui = open("cornell");
+    let copied = |ui: &mut Ui| {
+        choose_from_menu(ui, &["File"]);
+        ui.get_by_role_and_label(Role::Button, "Copy picture").click();
+        ui.step();
+        let commands = ui.output().platform_output.commands.clone();
+        commands.into_iter().find_map(|command| match command {
+            egui::OutputCommand::CopyImage(image) => Some(image),
+            _ => None,
+        })
+    };
+    assert!(copied(&mut ui).is_none(), "there is no picture yet");
+    receive(&mut ui, frame(1, false, 16));
+    assert_eq!(copied(&mut ui).map(|image| image.size), Some([16, 16]));
+}
