@@ -30,6 +30,10 @@ pub(crate) enum Action {
     ToggleTangents,
     NextMirror,
     ConvertToPatches,
+    Thicken,
+    MirrorCopyX,
+    MirrorCopyY,
+    MirrorCopyZ,
     TogglePause,
     Restart,
     Fit,
@@ -122,6 +126,10 @@ const TABLE: &[Row] = &[
     (Action::ToggleTangents, "Keep tangents across seams", &[(NONE, Key::G)]),
     (Action::NextMirror, "Mirror symmetry", &[(NONE, Key::M)]),
     (Action::ConvertToPatches, "Convert to patches", &[]),
+    (Action::Thicken, "Thicken to a closed body", &[]),
+    (Action::MirrorCopyX, "Mirror copy in x", &[]),
+    (Action::MirrorCopyY, "Mirror copy in y", &[]),
+    (Action::MirrorCopyZ, "Mirror copy in z", &[]),
     (Action::TogglePause, "Pause or resume", &[(NONE, Key::Space)]),
     (Action::Restart, "Restart rendering", &[(NONE, Key::R)]),
     (Action::Fit, "Fit picture", &[(NONE, Key::F), (CTRL, Key::Num0)]),
@@ -231,6 +239,12 @@ impl Action {
             }
             Self::ConvertToPatches => {
                 "Replaces the surface of revolution by its patches, whose control points can then be moved one by one"
+            }
+            Self::Thicken => {
+                "Closes the sheet to a body: with a copy on its inside at a twentieth of its size, and walls along the border"
+            }
+            Self::MirrorCopyX | Self::MirrorCopyY | Self::MirrorCopyZ => {
+                "Adds the mirror image of the selected object or light, across the plane of the world's other two axes"
             }
             Self::NextMirror => "Moves control points in pairs, mirrored across a plane: off, x, y, z in turn",
             _ => "",

@@ -17,6 +17,7 @@
 //! | `kinds` | the kinds of shapes, lights, materials and textures: names, and conversions |
 //! | `presets` | materials with the parameters of real glass, metals and paint |
 //! | `new_items` | the items that "Add", "Duplicate" and "New scene" create |
+//! | `mirror_copy` | mirror images of objects and lights |
 //! | `stamp` | the state of a file on disk |
 //! | `state` | [`Document`]: the scene with its file, selection and history |
 
@@ -27,6 +28,7 @@ mod growth;
 pub(crate) mod handles;
 mod history;
 pub(crate) mod kinds;
+mod mirror_copy;
 mod names;
 pub(crate) mod new_items;
 mod placement;
@@ -41,6 +43,7 @@ mod welds;
 pub(crate) use edit::{Edit, texture_names, user_of};
 pub(crate) use growth::{Direction, all_points, profile_points, with_lines};
 pub(crate) use handles::Handle;
+pub(crate) use mirror_copy::mirror_copy;
 pub(crate) use new_items::NewItem;
 pub(crate) use selection::{Item, PointIndex, Selection};
 pub(crate) use stamp::Stamp;

@@ -30,6 +30,7 @@ const LAMP: f64 = 0.5;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NewItem {
     Patch,
+    PatchGrid,
     Revolution,
     Sphere,
     Quad,
@@ -43,7 +44,8 @@ pub(crate) enum NewItem {
 
 impl NewItem {
     /// The entries of the menu "Add to Objects".
-    pub(crate) const OBJECTS: [Self; 5] = [Self::Patch, Self::Revolution, Self::Sphere, Self::Quad, Self::Plane];
+    pub(crate) const OBJECTS: [Self; 6] =
+        [Self::Patch, Self::PatchGrid, Self::Revolution, Self::Sphere, Self::Quad, Self::Plane];
     /// The entries of the menu "Add to Lights".
     pub(crate) const LIGHTS: [Self; 5] = [Self::PointLight, Self::SphereLight, Self::QuadLight, Self::Sun, Self::Beam];
 
@@ -51,6 +53,7 @@ impl NewItem {
     pub(crate) fn label(self) -> &'static str {
         match self {
             Self::Patch => "patch",
+            Self::PatchGrid => "grid of patches",
             Self::Revolution => "surface of revolution",
             Self::Sphere => "sphere",
             Self::Quad => "quad",
@@ -74,6 +77,7 @@ impl NewItem {
         let turned = Transform { translate: room.center, rotate: facing(room.center, eye), ..Transform::default() };
         let shape = match self {
             Self::Patch => Shape::Bezier(sheet(turned, HALF_SIDE * room.radius)),
+            Self::PatchGrid => Shape::Bezier(flat_grid(turned, HALF_SIDE * room.radius)),
             Self::Revolution => Shape::Revolution(vase(room, turned.rotate.y)),
             Self::Sphere => Shape::Sphere { center: room.center, radius: HALF_SIDE * room.radius },
             Self::Quad => {
@@ -208,6 +212,18 @@ fn sheet(transform: Transform, half: f64) -> Bezier {
     Bezier { transform, patches: Arc::new(vec![ControlNet { points }]), file: None, uv: None }
 }
 
+/// Flat patches side by side, 2 along each side of a square with sides of length `2 half` around the origin of the object's space.
+fn flat_grid(transform: Transform, half: f64) -> Bezier {
+    // Patches that share an edge compute its control points from the same numbers.
+    let along = |k: usize| half * (k as f64 / 3.0 - 1.0);
+    let net = |patch: usize| {
+        let (row, column) = (3 * (patch / 2), 3 * (patch % 2));
+        let at = |i: usize, j: usize| DVec3::new(along(column + j), 0.0, along(row + i));
+        ControlNet { points: array::from_fn(|i| array::from_fn(|j| at(i, j))) }
+    };
+    Bezier { transform, patches: Arc::new((0..4).map(net).collect()), file: None, uv: None }
+}
+
 /// A vase inside of a ball, turned about y by an angle in degrees, so that its profile lies across the line of sight. The profile
 /// goes up, with its outside away from the axis.
 fn vase(room: &Sphere, turn: f64) -> Revolution {
@@ -272,6 +288,28 @@ mod tests {
             // Sums of numbers below 1.
             assert!(center.distance(room.center) < 1e-14 && bezier.transform.translate == room.center);
         }
+    }
+
+    #[test]
+    fn a_new_grid_is_flat_and_its_patches_share_edges() {
+        let grid = flat_grid(Transform::default(), 0.7);
+        let mut corners: Vec<_> = grid.patches.iter().flat_map(|net| net.points.into_iter().flatten()).collect();
+        assert!(corners.iter().all(|at| at.y == 0.0 && at.abs().max_element() <= 0.7));
+        corners.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.z.total_cmp(&b.z)));
+        corners.dedup();
+        assert_eq!(corners.len(), 7 * 7, "equal to the last bit");
+        let up = grid.patches.iter().map(|net| net.derivatives(0.5, 0.5)).map(|d| d.dpdu.cross(d.dpdv).y);
+        assert!(up.into_iter().all(|y| y > 0.0), "the outside is above");
+    }
+
+    #[test]
+    fn a_new_surface_of_revolution_lies_in_its_ball() {
+        let room = Sphere { center: DVec3::new(0.3, 0.4, 0.1), radius: 0.8 };
+        let vase = vase(&room, 30.0);
+        let nets = vase.surface().placed_nets();
+        let points = nets.iter().flat_map(|net| net.points.into_iter().flatten());
+        let farthest = points.map(|point| point.distance(room.center)).fold(0.0, f64::max);
+        assert!(farthest < room.radius && farthest > 0.8 * room.radius, "{farthest}");
     }
 
     #[test]

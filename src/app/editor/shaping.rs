@@ -2,8 +2,8 @@
 
 use super::state::Editor;
 use crate::app::commands::Action;
-use crate::app::document::surface::{Cut, Mirror, flattened, reset, smoothed, split};
-use crate::app::document::{Edit, Item};
+use crate::app::document::surface::{Cut, Mirror, flattened, reset, smoothed, split, thickened, usual_thickness};
+use crate::app::document::{Edit, Item, mirror_copy};
 use crate::scene::Bezier;
 
 impl Editor {
@@ -53,6 +53,23 @@ impl Editor {
                 self.document.edit(Edit::Patches(object, surface, "convert to patches"));
             }
             _ => drop(self.toasts.warning("Select a surface of revolution first")),
+        }
+    }
+
+    /// Closes the selected sheet to a body.
+    pub(super) fn thicken(&mut self) {
+        let Some((object, bezier)) = self.selected_patches() else { return };
+        match thickened(&bezier, usual_thickness(&bezier)) {
+            Ok(body) => self.document.edit(Edit::Patches(object, body, "thicken")),
+            Err(reason) => drop(self.toasts.warning(reason)),
+        }
+    }
+
+    /// Adds the mirror image of the selected object or light.
+    pub(super) fn mirror_copy(&mut self, axis: usize) {
+        match mirror_copy(self.document.scene(), self.document.selection.item, axis) {
+            Some(edit) => self.document.edit(edit),
+            None => drop(self.toasts.warning("Select an object or a light first")),
         }
     }
 

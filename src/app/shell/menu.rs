@@ -5,7 +5,7 @@ use super::menu_item::{check_ui, item_ui};
 use super::surface_menu::surface_menu_ui;
 use crate::app::canvas::{Analysis, automatic_step, steps_around};
 use crate::app::commands::{Action, AppCommand, LengthUnit, Next, PictureView};
-use crate::app::document::Document;
+use crate::app::document::{Document, Item};
 use crate::app::viewpoint::{NamedView, Side};
 use crate::scene::built_in_scenes;
 use crate::transport::Component;
@@ -130,9 +130,14 @@ fn edit_ui(ui: &mut Ui, document: &Document, visible: Visibility, commands: &mut
     }
     check_ui(ui, Action::ToggleHistory, visible.history, commands);
     ui.separator();
-    for action in [Action::Duplicate, Action::Delete] {
-        item_ui(ui, action, action.label(), true, commands);
-    }
+    item_ui(ui, Action::Duplicate, Action::Duplicate.label(), true, commands);
+    ui.menu_button("Mirror copy", |ui| {
+        let has_image = matches!(document.selection.item, Item::Object(_) | Item::Light(_));
+        for action in [Action::MirrorCopyX, Action::MirrorCopyY, Action::MirrorCopyZ] {
+            item_ui(ui, action, action.label(), has_image, commands);
+        }
+    });
+    item_ui(ui, Action::Delete, Action::Delete.label(), true, commands);
 }
 
 fn view_ui(ui: &mut Ui, visible: Visibility, commands: &mut Vec<AppCommand>) {

@@ -25,5 +25,6 @@ pub(super) fn surface_menu_ui(ui: &mut Ui, document: &Document, commands: &mut V
     let label = format!("{}: {mirror}", Action::NextMirror.label());
     item_ui(ui, Action::NextMirror, &label, enabled, commands);
     ui.separator();
+    item_ui(ui, Action::Thicken, Action::Thicken.label(), enabled, commands);
     item_ui(ui, Action::ConvertToPatches, Action::ConvertToPatches.label(), is_revolution, commands);
 }

@@ -111,8 +111,8 @@ fn the_palette_runs_what_it_finds() {
     ui.key_press(Key::Enter);
     ui.run_steps(3);
     assert!(
-        matches!(scene(&ui).objects.last().unwrap().shape, Shape::Revolution(_)),
-        "the second one: after the patch"
+        scene(&ui).objects.last().unwrap().shape.surface().is_some_and(|surface| surface.patches.len() == 4),
+        "the second one: a grid after the patch"
     );
 }
 

@@ -20,7 +20,7 @@
 //! | `recovery` | unsaved changes of windows that ended |
 //! | `preferences` | remembered looks and folders, recent files |
 //! | `outside` | files that other programs change |
-//! | `revolution` | surfaces of revolution |
+//! | `revolution` | surfaces of revolution; thickened sheets and mirror copies |
 //! | `surface` | splitting and fairing of patches; control points that move together |
 //! | `analysis` | isolines, curvature and reflection lines; light paths |
 //! | `fields` | typed numbers and names |

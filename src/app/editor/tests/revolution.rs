@@ -2,6 +2,7 @@ use super::*;
 use crate::app::commands::{Action, AppCommand};
 use crate::app::document::NewItem;
 use crate::scene::Revolution;
+use glam::DVec3;
 
 /// The editor of a scene with a new surface of revolution, which is selected.
 fn open_with_vase() -> Ui {
@@ -111,4 +112,40 @@ fn patches_take_the_place_of_a_surface_of_revolution() {
     assert_eq!(ui.state().document.selection.item, object);
     press(&mut ui, Key::Z);
     assert_eq!(*vase(&ui), before);
+}
+
+#[test]
+fn a_sheet_becomes_a_body_in_one_undo_step() {
+    let mut ui = open("report");
+    let ctx = ui.ctx.clone();
+    let before = scene(&ui).clone();
+    ui.state_mut().apply(&ctx, AppCommand::Do(Action::Thicken));
+    ui.run_steps(2);
+    let bezier = ui.state().document.selection.bezier(scene(&ui)).expect("patches");
+    assert_eq!(bezier.patches.len(), 1 + 1 + 4);
+    ui.state_mut().apply(&ctx, AppCommand::Do(Action::Thicken));
+    ui.run_steps(2);
+    assert_eq!(ui.state().toasts.len(), 1, "the reason: it is closed");
+    press(&mut ui, Key::Z);
+    assert_eq!(*scene(&ui), before);
+}
+
+#[test]
+fn a_mirror_copy_is_selected_and_one_undo_step() {
+    let mut ui = open_with_vase();
+    let ctx = ui.ctx.clone();
+    let (before, translate) = (scene(&ui).clone(), vase(&ui).transform().translate);
+    for (action, axis) in [(Action::MirrorCopyX, 0), (Action::MirrorCopyY, 1), (Action::MirrorCopyZ, 2)] {
+        ui.state_mut().apply(&ctx, AppCommand::Do(action));
+        ui.run_steps(2);
+        let mut expected: DVec3 = translate;
+        expected[axis] = -expected[axis];
+        assert_eq!(vase(&ui).transform().translate, expected);
+        press(&mut ui, Key::Z);
+        assert_eq!(*scene(&ui), before);
+    }
+    select(&mut ui, Item::Camera);
+    ui.state_mut().apply(&ctx, AppCommand::Do(Action::MirrorCopyX));
+    ui.run_steps(2);
+    assert_eq!(ui.state().toasts.len(), 1, "the reason");
 }
