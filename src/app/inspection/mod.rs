@@ -2,7 +2,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `field` | [`Field`]: a number for each pixel |
+//! | `field` | a number for each pixel |
 //! | `colors` | false colours and isolines |
 //! | `statistics` | least, mean and greatest number over an object |
 //! | `profile` | numbers along a line |
