@@ -44,7 +44,8 @@ pub fn write_exr(path: &Path, image: &LinearImage, provenance: &Provenance) -> R
 }
 
 fn attributes(image: &LinearImage, provenance: &Provenance) -> LayerAttributes {
-    let text = |text: &str| Text::new_or_none(text);
+    // The format leaves the encoding open; other programs read and write UTF-8, too.
+    let text = |text: &str| Some(Text::from_slice_unchecked(text.as_bytes()));
     let camera = provenance.camera;
     let vertical = camera.map(|camera| camera.fov_y as f32);
     let aspect = image.width as f32 / image.height as f32;
@@ -108,8 +109,9 @@ pub fn read_exr_with_provenance(path: &Path) -> Result<(LinearImage, Provenance)
         .all_attributes()
         .from_buffered(Cursor::new(bytes))
         .map_err(|e| wrong(not_exr(&e)))?;
-    let comments = image.layer_data.attributes.comments.map(|text| text.to_string());
-    Ok((image.layer_data.channel_data.pixels, Provenance::of_comment(&comments.unwrap_or_default())))
+    let comments = image.layer_data.attributes.comments;
+    let provenance = comments.map(|text| Provenance::of_comment(&String::from_utf8_lossy(text.as_slice())));
+    Ok((image.layer_data.channel_data.pixels, provenance.unwrap_or_default()))
 }
 
 /// Checks the sizes of all layers before memory is taken for their pixels.
@@ -170,7 +172,7 @@ mod tests {
             Camera { position: DVec3::new(1.0, 2.0, 7.0), target: DVec3::new(1.0, 2.0, 3.0), ..Camera::default() };
         let camera = Camera { fov_y: 60.0, ..camera };
         let provenance = Provenance {
-            scene: Some("version = 1\nname = \"\u{e4}\"\n".to_owned()),
+            scene: Some("version = 1\nname = \"\u{e4} \u{6c34}\"\n".to_owned()),
             iterations: 5,
             error: Some(0.25),
             camera: Some(camera),
