@@ -6,7 +6,7 @@ use super::{
     statistics::Statistics,
 };
 use crate::engine::{Checkpoint, CheckpointFile};
-use crate::film::{PngDepth, Provenance};
+use crate::film::PngDepth;
 use std::{
     io::{self, Write, stderr},
     path::{Path, PathBuf},
@@ -27,10 +27,7 @@ pub(super) fn merge(arguments: &MergeArguments) -> Result<(), CliError> {
         Checkpoint::write(path, &merged.run, &merged.part)?;
     }
     if let (Some(format), Some(path)) = (format, output) {
-        let stats = merged.part.stats();
-        let provenance =
-            Provenance { iterations: stats.iterations, error: stats.error_estimate, ..Provenance::default() };
-        let image = merged.part.film().image();
+        let (image, provenance) = (merged.part.film().image(), merged.run.provenance(&merged.part.stats()));
         format.write(path, &image, merged.run.display(), PngDepth::from(*png_bits), &provenance)?;
     }
     if let Some(path) = stats {

@@ -11,8 +11,7 @@ use super::{
     words::counted,
 };
 use crate::{
-    engine::{CheckpointError, Frame, Session},
-    film::Provenance,
+    engine::{CheckpointError, Frame, Session, provenance},
     scene::SceneFile,
     transport::Component,
 };
@@ -44,7 +43,9 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
     {
         let film = &file.scene.film;
         let display = (film.exposure, film.tone_curve);
-        format.write(path, &frame.image, display, arguments.png_bits.into(), &provenance(&file, arguments, &frame))?;
+        let RenderSettings { seed, only, .. } = arguments.settings;
+        let provenance = provenance(&file, seed, only.map(Component::from), &frame.stats);
+        format.write(path, &frame.image, display, arguments.png_bits.into(), &provenance)?;
     }
     if let Some(path) = &arguments.stats {
         let size = (frame.image.width, frame.image.height);
@@ -69,19 +70,6 @@ pub(super) fn render(arguments: &RenderArguments) -> Result<(), CliError> {
             report(&frame, &output).ok();
             Ok(())
         }
-    }
-}
-
-/// What the picture's file tells of its provenance.
-fn provenance(file: &SceneFile, arguments: &RenderArguments, frame: &Frame) -> Provenance {
-    let RenderSettings { seed, only, .. } = arguments.settings;
-    let only = only.map(|only| ("Only".to_owned(), format!("{:?}", Component::from(only)).to_lowercase()));
-    Provenance {
-        scene: Some(file.snapshot()),
-        settings: [("Seed".to_owned(), seed.to_string())].into_iter().chain(only).collect(),
-        iterations: frame.iteration,
-        error: frame.stats.error_estimate,
-        camera: Some(file.scene.camera),
     }
 }
 

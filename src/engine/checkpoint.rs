@@ -9,12 +9,12 @@
 //! | 4 | checksum (CRC-32) of the body |
 //! | 4 | checksum of all bytes before, and of the head |
 //! | | the head: the run, its first and its last iteration |
-//! | | the body: the part, compressed by DEFLATE |
+//! | | the body: the part, and the text of the scene, compressed by DEFLATE |
 //!
 //! Numbers are little-endian. The head and the unpacked body are in the encoding of the crate `postcard`; sums keep all their bits.
 
 use super::film_part::FilmPart;
-use super::run::Run;
+use super::run::{MOST_TEXT, Run};
 use crate::file::{open, write_whole};
 use flate2::{Compression, Crc, read::DeflateDecoder, write::DeflateEncoder};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"PLFILM\r\n";
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 /// Length of the fields before the head.
 const FIELDS: usize = 32;
 /// Most bytes of a head: the paths of systems have up to 4096 bytes.
@@ -160,7 +160,7 @@ impl CheckpointFile {
     /// If the file cannot be read or is damaged.
     pub fn read(self) -> Result<Checkpoint, CheckpointError> {
         let (width, height) = self.head.run.size();
-        let limit = MAX_BYTES_PER_PIXEL * u64::from(width + 1) * u64::from(height + 1);
+        let limit = MAX_BYTES_PER_PIXEL * u64::from(width + 1) * u64::from(height + 1) + MOST_TEXT as u64;
         let path = &self.path;
         if self.body_length > limit {
             return Err(damaged(path, "it is too long for its film"));
@@ -173,11 +173,11 @@ impl CheckpointFile {
         }
         let mut body = Vec::new();
         let unpacked = DeflateDecoder::new(&packed[..]).take(limit).read_to_end(&mut body);
-        let part = unpacked.ok().and_then(|_| decoded(&body)).filter(|part: &FilmPart| {
+        let read = unpacked.ok().and_then(|_| decoded(&body)).filter(|(part, _): &(FilmPart, Option<String>)| {
             (part.film().first(), part.film().last()) == (self.head.first, self.head.last) && part.fits(width, height)
         });
-        let part = part.ok_or_else(|| damaged(path, "its parts contradict each other"))?;
-        Ok(Checkpoint { run: self.head.run, part })
+        let (part, text) = read.ok_or_else(|| damaged(path, "its parts contradict each other"))?;
+        Ok(Checkpoint { run: self.head.run.with_text(text), part })
     }
 }
 
@@ -187,7 +187,7 @@ fn encoded(run: &Run, part: &FilmPart) -> io::Result<Vec<u8>> {
     let head = postcard::to_allocvec(&Head { run: run.clone(), first, last }).map_err(io::Error::other)?;
     // Packed as it is encoded: both copies of a large film at once would take too much memory.
     let packing = BufWriter::new(DeflateEncoder::new(Vec::new(), Compression::fast()));
-    let packing = postcard::to_io(part, packing).map_err(io::Error::other)?;
+    let packing = postcard::to_io(&(part, &run.text), packing).map_err(io::Error::other)?;
     let packed = packing.into_inner().map_err(io::IntoInnerError::into_error)?.finish()?;
     let mut bytes = MAGIC.to_vec();
     bytes.extend(VERSION.to_le_bytes());

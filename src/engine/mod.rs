@@ -55,7 +55,7 @@ pub use handle::Engine;
 pub use iteration::iterate;
 pub use messages::{Command, EngineError, EngineSettings, Limits, Status};
 pub use pass_meter::PassMeter;
-pub use run::Run;
+pub use run::{Run, provenance};
 pub use session::{BLACK_ITERATIONS, Session, SessionError};
 
 pub use crate::transport::{Counters, Energy, PathEnergy, PlanItem, PlanNote, WorstBalance};

@@ -1,6 +1,8 @@
 //! The run that a part belongs to.
 
-use crate::scene::{SceneFile, ToneCurve};
+use super::frame::Stats;
+use crate::film::Provenance;
+use crate::scene::{Location, SceneFile, ToneCurve};
 use crate::transport::Component;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +18,34 @@ pub struct Run {
     only: Option<Component>,
     exposure: f64,
     tone_curve: ToneCurve,
+    /// The text of the scene, for the files of pictures, if it is short enough for them. In a checkpoint it comes after the head.
+    #[serde(skip)]
+    pub(super) text: Option<String>,
+}
+
+/// Most bytes of a scene's text in the file of a picture or of a film.
+pub(super) const MOST_TEXT: usize = 1 << 20;
+
+/// What the file of a picture tells of a rendering of this scene with this seed, of one component of the light or of all, which has these
+/// statistics. A scene of more than a megabyte is left out.
+pub fn provenance(file: &SceneFile, seed: u64, only: Option<Component>, stats: &Stats) -> Provenance {
+    let camera = Some(file.scene.camera);
+    Provenance { scene: text_of(file), camera, ..provenance_of_unknown(seed, only, stats) }
+}
+
+fn provenance_of_unknown(seed: u64, only: Option<Component>, stats: &Stats) -> Provenance {
+    let setting = |name: &str, value: String| (name.to_owned(), value);
+    let only = only.map(|only| setting("Only", format!("{only:?}").to_lowercase()));
+    Provenance {
+        settings: [setting("Seed", seed.to_string())].into_iter().chain(only).collect(),
+        iterations: stats.iterations,
+        error: stats.error_estimate,
+        ..Provenance::default()
+    }
+}
+
+fn text_of(file: &SceneFile) -> Option<String> {
+    Some(file.snapshot()).filter(|text| text.len() <= MOST_TEXT)
 }
 
 impl Run {
@@ -36,6 +66,7 @@ impl Run {
             only,
             exposure: film.exposure,
             tone_curve: film.tone_curve,
+            text: text_of(file),
         })
     }
 
@@ -47,6 +78,19 @@ impl Run {
     /// Exposure in stops and tone curve of the picture.
     pub fn display(&self) -> (f64, ToneCurve) {
         (self.exposure, self.tone_curve)
+    }
+
+    /// The run with the text of its scene, which is not in the head of a checkpoint.
+    pub(super) fn with_text(self, text: Option<String>) -> Self {
+        Self { text, ..self }
+    }
+
+    /// What the file of a picture of the run tells, which has these statistics.
+    pub fn provenance(&self, stats: &Stats) -> Provenance {
+        let unknown = provenance_of_unknown(self.seed, self.only, stats);
+        let text = self.text.as_ref();
+        let file = text.and_then(|text| SceneFile::restore(text, Location::Unsaved).ok());
+        Provenance { scene: text.cloned(), camera: file.map(|file| file.scene.camera), ..unknown }
     }
 
     /// What keeps iterations of this run from being iterations of `other`; `None` if nothing does. Exposure and tone curve may differ.

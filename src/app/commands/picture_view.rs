@@ -43,7 +43,7 @@ impl PictureView {
             Self::Light => "The picture",
             Self::Irradiance => {
                 "Flux on each area of a matte surface: pi times radiance over albedo, the mean over red, green and blue. \
-                 Mirrors, glass and glossy surfaces have no value."
+                 Mirrors, glass, glossy surfaces and edges have no number."
             }
             Self::Error => {
                 "Standard deviation of the noise over the radiance, by the difference between the first and the later iterations, \

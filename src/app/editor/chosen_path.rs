@@ -111,7 +111,8 @@ impl Editor {
 
     /// Continues the exports, and reports the finished exports.
     pub(crate) fn poll_export(&mut self, ctx: &Context) {
-        for exported in self.export.poll(ctx, self.rendering.full_frame(), self.viewpoint.seen()) {
+        for exported in self.export.poll(ctx, self.rendering.full_frame(), self.viewpoint.seen(), self.rendering.only())
+        {
             match exported.result {
                 Ok(()) => {
                     self.toasts.success(format!("Exported {}", exported.path.display()));

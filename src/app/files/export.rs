@@ -2,10 +2,11 @@
 
 use crate::app::commands::Purpose;
 use crate::app::document::Document;
-use crate::engine::Frame;
+use crate::engine::{EngineSettings, Frame, provenance};
 use crate::file::write_whole;
 use crate::film::{LinearImage, PngDepth, Provenance, ToneMap, write_exr, write_png};
 use crate::scene::{Film, SceneFile, SurfaceExport, SurfaceFormat, SurfaceOptions};
+use crate::transport::Component;
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use egui::Context;
 use std::path::{Path, PathBuf};
@@ -63,8 +64,14 @@ impl Export {
     }
 
     /// Writes the requested picture if `frame`, the newest frame that is no draft, exists. Returns the exports that have
-    /// finished since the last call. `seen` is the scene that the window shows.
-    pub(crate) fn poll(&mut self, ctx: &Context, frame: Option<&Arc<Frame>>, seen: &Arc<SceneFile>) -> Vec<Exported> {
+    /// finished since the last call. `seen` is the scene that the window shows, with one component of the light or all.
+    pub(crate) fn poll(
+        &mut self,
+        ctx: &Context,
+        frame: Option<&Arc<Frame>>,
+        seen: &Arc<SceneFile>,
+        only: Option<Component>,
+    ) -> Vec<Exported> {
         if let Some(frame) = frame
             && let Some((purpose, path)) = self.waiting.take()
         {
@@ -72,7 +79,13 @@ impl Export {
             let (frame, seen) = (Arc::clone(frame), Arc::clone(seen));
             self.spawn(ctx, purpose, path, move |path| {
                 let depth = if purpose == Purpose::ExportDeep { PngDepth::Sixteen } else { PngDepth::Eight };
-                write_picture(path, &image, &seen.scene.film, depth, &provenance(&seen, &frame))
+                write_picture(
+                    path,
+                    &image,
+                    &seen.scene.film,
+                    depth,
+                    &provenance(&seen, EngineSettings::default().seed, only, &frame.stats),
+                )
             });
         }
         self.done.1.try_iter().collect()
@@ -100,17 +113,6 @@ pub(crate) fn surface_of(document: &Document) -> Option<SurfaceExport> {
     let scene = document.scene();
     let selected = document.selection.object(scene).and_then(|object| SurfaceExport::of([object]));
     selected.or_else(|| SurfaceExport::of(&scene.objects))
-}
-
-/// Where the picture of a frame comes from, which shows this scene.
-pub(crate) fn provenance(seen: &SceneFile, frame: &Frame) -> Provenance {
-    Provenance {
-        scene: Some(seen.snapshot()),
-        settings: Vec::new(),
-        iterations: frame.iteration,
-        error: frame.stats.error_estimate,
-        camera: Some(seen.scene.camera),
-    }
 }
 
 fn write_picture(

@@ -38,7 +38,14 @@ impl Field {
             PictureView::Light | PictureView::Albedo | PictureView::Normals => return None,
         };
         let objects = g_buffer.first_hits.iter().map(|hit| hit.object).collect();
-        Some(Self { width, height, values, objects })
+        let field = Self { width, height, values, objects };
+        Some(if view == PictureView::Irradiance { field.inside_objects() } else { field })
+    }
+
+    /// The field without the numbers at edges: the radiance there is that of two surfaces, the albedo that of one.
+    fn inside_objects(self) -> Self {
+        let inside = |index: usize| if self.is_inside_object(index) { self.values[index] } else { f32::NAN };
+        Self { values: (0..self.values.len()).map(inside).collect(), ..self }
     }
 
     /// The number at a column and row; `None` outside, and where there is none.
@@ -147,10 +154,11 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn pixels_at_an_edge_are_outside() {
+    fn pixels_at_an_edge_have_no_number() {
         let mut field = field(5, vec![1.0; 25]);
         field.objects[12] = None;
-        let inside: Vec<usize> = (0..25).filter(|index| field.is_inside_object(*index)).collect();
+        let field = field.inside_objects();
+        let inside: Vec<usize> = (0..25).filter(|index| field.values[*index] == 1.0).collect();
         assert_eq!(inside, [0, 1, 2, 3, 4, 5, 9, 10, 14, 15, 19, 20, 21, 22, 23, 24]);
     }
 }

@@ -6,7 +6,7 @@ use crate::app::commands::PictureView;
 use crate::app::theme::overlay;
 use egui::{Align2, FontId, Rect, Ui, pos2, vec2};
 
-/// Width of the legend, and height of a line of its text, screen points.
+/// Least width of the legend, and height of a line of its text, screen points.
 const WIDTH: f32 = 250.0;
 const LINE: f32 = 16.0;
 /// Steps of the bar of colours.
@@ -45,11 +45,16 @@ pub(crate) fn legend_ui(
         lines.push("After the first iteration".to_owned());
     }
     let height = LINE * lines.len() as f32 + if scale.is_some() { 2.0 * LINE } else { 0.0 } + 10.0;
-    let rect = Rect::from_min_size(canvas.left_top() + vec2(10.0, 10.0), vec2(WIDTH, height));
+    let of_line = |text: &String| {
+        ui.painter().layout_no_wrap(text.clone(), FontId::proportional(12.0), overlay::LEGEND_TEXT).size().x
+    };
+    let widest = lines.iter().map(of_line).fold(0.0, f32::max);
+    let width = (widest + 20.0).clamp(WIDTH, (canvas.width() - 20.0).max(WIDTH));
+    let rect = Rect::from_min_size(canvas.left_top() + vec2(10.0, 10.0), vec2(width, height));
     if !canvas.contains_rect(rect) {
         return;
     }
-    let painter = ui.painter_at(canvas);
+    let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 5.0, overlay::LEGEND);
     let write = |x: f32, y: f32, align: Align2, text: &str| {
         painter.text(pos2(x, y), align, text, FontId::proportional(12.0), overlay::LEGEND_TEXT);
