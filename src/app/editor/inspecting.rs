@@ -15,6 +15,13 @@ impl Editor {
         self.inspection.set_view(view);
     }
 
+    /// Shows all light, without a profile: a scene that was opened is shown as it is.
+    pub(super) fn show_all_light(&mut self) {
+        self.show_of_scene(PictureView::Light);
+        self.inspection.set_line(None);
+        self.rendering.set_only(None);
+    }
+
     /// Shows the irradiance, or light again.
     pub(super) fn toggle_irradiance(&mut self) {
         let is_on = self.inspection.view() == PictureView::Irradiance;

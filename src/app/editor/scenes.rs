@@ -137,6 +137,7 @@ impl Editor {
     pub(crate) fn replace_document(&mut self, document: Document) {
         self.document = document;
         self.open_snapshots();
+        self.show_all_light();
         self.viewpoint.look(None);
         self.visited = Visited::new(self.document.scene().camera);
         self.unreadable = None;

@@ -1,7 +1,7 @@
 //! The guide: ten minutes from the first start to a caustic, and a section for each task.
 
 use crate::app::commands::{Action, AppCommand};
-use egui::{Align2, Context, Id, Rect, ScrollArea, Window};
+use egui::{Align2, Context, Id, Key, Rect, ScrollArea, Window};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 
 /// The text of the guide, Markdown.
@@ -22,7 +22,9 @@ pub(crate) fn guide_ui(ctx: &Context, canvas: Rect, cache: &mut CommonMarkCache,
         .show(ctx, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| CommonMarkViewer::new().show(ui, cache, TEXT));
         });
-    if !open {
+    // Escape ends a drag first: egui gives it to the dragged widget.
+    let escaped = !ctx.egui_is_using_pointer() && ctx.memory(|memory| memory.focused().is_none());
+    if !open || (escaped && ctx.input(|input| input.key_pressed(Key::Escape))) {
         commands.push(AppCommand::Do(Action::ToggleGuide));
     }
 }

@@ -105,3 +105,17 @@ fn a_profile_needs_a_line() {
     ui.run_steps(2);
     assert!(ui.state().chooser.pending().is_none() && ui.state().toasts.len() == 1);
 }
+
+#[test]
+fn an_opened_scene_is_shown_in_all_its_light() {
+    let mut ui = showing(PictureView::Irradiance);
+    let ctx = ui.ctx.clone();
+    ui.state_mut().apply(&ctx, AppCommand::Only(Some(Component::Direct)));
+    ui.state_mut().apply(&ctx, AppCommand::ProfileLine(Some([Pos2::ZERO, Pos2::new(9.0, 9.0)])));
+    ui.state_mut().document = crate::app::document::Document::new(SceneFile::built_in("cornell").unwrap());
+    ui.state_mut().apply(&ctx, AppCommand::Leave(crate::app::commands::Next::New));
+    ui.run_steps(2);
+    let editor = ui.state();
+    assert_eq!((editor.inspection.view(), editor.rendering.only()), (PictureView::Light, None));
+    assert!(editor.inspection.profile().is_none());
+}
