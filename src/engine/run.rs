@@ -30,10 +30,10 @@ pub(super) const MOST_TEXT: usize = 1 << 20;
 /// statistics. A scene of more than a megabyte is left out.
 pub fn provenance(file: &SceneFile, seed: u64, only: Option<Component>, stats: &Stats) -> Provenance {
     let camera = Some(file.scene.camera);
-    Provenance { scene: text_of(file), camera, ..provenance_of_unknown(seed, only, stats) }
+    Provenance { scene: text_of(file), camera, ..provenance_without_scene(seed, only, stats) }
 }
 
-fn provenance_of_unknown(seed: u64, only: Option<Component>, stats: &Stats) -> Provenance {
+fn provenance_without_scene(seed: u64, only: Option<Component>, stats: &Stats) -> Provenance {
     let setting = |name: &str, value: String| (name.to_owned(), value);
     let only = only.map(|only| setting("Only", format!("{only:?}").to_lowercase()));
     Provenance {
@@ -87,10 +87,10 @@ impl Run {
 
     /// What the file of a picture of the run tells, which has these statistics.
     pub fn provenance(&self, stats: &Stats) -> Provenance {
-        let unknown = provenance_of_unknown(self.seed, self.only, stats);
+        let rest = provenance_without_scene(self.seed, self.only, stats);
         let text = self.text.as_ref();
         let file = text.and_then(|text| SceneFile::restore(text, Location::Unsaved).ok());
-        Provenance { scene: text.cloned(), camera: file.map(|file| file.scene.camera), ..unknown }
+        Provenance { scene: text.cloned(), camera: file.map(|file| file.scene.camera), ..rest }
     }
 
     /// What keeps iterations of this run from being iterations of `other`; `None` if nothing does. Exposure and tone curve may differ.

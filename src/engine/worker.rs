@@ -159,7 +159,7 @@ impl Worker {
         let known = previous.as_ref().map(|(_, session)| session);
         let mut session = self.pool.install(|| Session::prepare(&scene, self.seed, known))?;
         session = session.only(self.only).keeping_interreflection().smoothing_drafts(self.smooth);
-        if let Some((_, known)) = previous.as_ref().filter(|(before, _)| shows_the_same(&before.scene, &scene.scene)) {
+        if let Some((_, known)) = previous.as_ref().filter(|(before, _)| shows_the_same(before, &scene)) {
             session = session.showing_the_same(known);
         }
         self.keep_stand_in(previous, &scene, &session);

@@ -142,7 +142,8 @@ fn thumbnail_ui(ui: &mut Ui, snapshots: &Snapshots, index: usize, commands: &mut
                 send(SnapshotCommand::Second(index));
             }
             picture.context_menu(|ui| {
-                let id = ui.scope_id().with(index);
+                // Places change when a snapshot before is deleted: the text belongs to the name.
+                let id = ui.scope_id().with((index, snapshot.name.as_str()));
                 let mut name = ui.data_mut(|data| data.get_temp(id).unwrap_or_else(|| snapshot.name.clone()));
                 let field = ui.text_edit_singleline(&mut name);
                 if field.lost_focus() && !name.trim().is_empty() {

@@ -8,6 +8,7 @@ use crate::app::commands::PictureView;
 use crate::app::rendering::BackgroundImage;
 use crate::engine::Frame;
 use egui::{Color32, ColorImage, Context, Pos2, TextureHandle};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The picture that a view is of.
@@ -23,6 +24,8 @@ pub(super) struct Scaled {
     pub(super) field: Field,
     /// The end of the scale from 0.
     pub(super) scale: f32,
+    /// Least, mean and greatest number of each object.
+    statistics: BTreeMap<u32, Statistics>,
 }
 
 /// What the canvas shows of the scene.
@@ -88,7 +91,7 @@ impl Inspection {
 
     /// Least, mean and greatest number of an object.
     pub(super) fn statistics(&self, object: usize) -> Option<Statistics> {
-        Statistics::of(&self.scaled()?.field, u32::try_from(object).ok()?)
+        self.scaled()?.statistics.get(&u32::try_from(object).ok()?).copied()
     }
 
     /// The numbers along the line; `None` without a line or numbers.
@@ -101,7 +104,8 @@ impl Inspection {
 fn image_of(view: PictureView, frame: &Frame) -> (ColorImage, Option<Scaled>) {
     if let Some(field) = Field::of(view, frame) {
         let scale = scale_of(&field);
-        return (false_colors(&field, scale), Some(Scaled { field, scale }));
+        let statistics = Statistics::of_objects(&field);
+        return (false_colors(&field, scale), Some(Scaled { field, scale, statistics }));
     }
     let is_of_surfaces = matches!(view, PictureView::Albedo | PictureView::Normals);
     let image = frame.g_buffer.as_ref().filter(|_| is_of_surfaces).map(|g_buffer| surfaces(view, g_buffer));

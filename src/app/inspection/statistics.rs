@@ -1,6 +1,7 @@
 //! Least, mean and greatest number over an object.
 
 use super::field::Field;
+use std::collections::BTreeMap;
 
 /// The numbers of an object, over the pixels that show it alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,17 +12,21 @@ pub(super) struct Statistics {
 }
 
 impl Statistics {
-    /// The numbers of an object in a field; `None` where no pixel shows it alone, or has a number there.
-    pub(super) fn of(field: &Field, object: u32) -> Option<Self> {
-        let is_own = |index: &usize| field.objects[*index] == Some(object) && field.values[*index].is_finite();
-        let (mut least, mut greatest, mut sum, mut count) = (f32::INFINITY, f32::NEG_INFINITY, 0.0, 0);
-        for index in (0..field.values.len()).filter(is_own).filter(|index| field.is_inside_object(*index)) {
-            let value = field.values[index];
-            (least, greatest) = (least.min(value), greatest.max(value));
-            sum += f64::from(value);
-            count += 1;
+    /// The numbers of each object in a field that some pixel shows alone, with a number there.
+    pub(super) fn of_objects(field: &Field) -> BTreeMap<u32, Self> {
+        let mut sums: BTreeMap<u32, (f32, f64, u32, f32)> = BTreeMap::new();
+        let numbers = field.values.iter().zip(&field.objects).enumerate();
+        for (index, (value, object)) in numbers.filter(|(_, (value, _))| value.is_finite()) {
+            if let Some(object) = object.filter(|_| field.is_inside_object(index)) {
+                let (least, sum, count, greatest) =
+                    sums.entry(object).or_insert((f32::INFINITY, 0.0, 0, f32::NEG_INFINITY));
+                (*least, *greatest) = (least.min(*value), greatest.max(*value));
+                *sum += f64::from(*value);
+                *count += 1;
+            }
         }
-        (count > 0).then(|| Self { least, mean: (sum / f64::from(count)) as f32, greatest })
+        let mean = |(least, sum, count, greatest)| Self { least, mean: (sum / f64::from(count)) as f32, greatest };
+        sums.into_iter().map(|(object, sums)| (object, mean(sums))).collect()
     }
 }
 
@@ -38,9 +43,10 @@ mod tests {
         }
         field.values[7] = f32::NAN;
         // Of the columns 0 to 2, the third lies at the edge.
-        let statistics = Statistics::of(&field, 0).unwrap();
+        let all = Statistics::of_objects(&field);
+        let statistics = all[&0];
         assert_eq!((statistics.least, statistics.greatest), (0.0, 31.0));
         assert!((statistics.mean - (6.0 * 15.0 * 2.0 + 6.0 - 7.0) / 11.0).abs() < 1e-4, "{statistics:?}");
-        assert_eq!(Statistics::of(&field, 5), None);
+        assert_eq!(all.keys().copied().collect::<Vec<_>>(), [0, 1]);
     }
 }
